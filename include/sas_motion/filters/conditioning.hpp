@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "sas_motion/filters/linearized.hpp"
+#include "sas_motion/filters/update.hpp"
+#include "sas_motion/math/factorization.hpp"
+
+namespace sas_motion {
+
+/// S^{-1} of a small symmetric positive definite matrix, by a division where it is 1x1 and by a checked Cholesky where it is larger.
+template <int M>
+class Innovation {
+ public:
+  explicit Innovation(const Matrix<M>& S) : llt_(S) {}
+  bool valid() const { return llt_.info() == Eigen::Success; }
+  template <class Rhs>
+  auto solve(const Rhs& rhs) const {
+    return llt_.solve(rhs).eval();
+  }
+
+ private:
+  Eigen::LLT<Matrix<M>> llt_;
+};
+
+template <>
+class Innovation<1> {
+ public:
+  explicit Innovation(const Matrix<1>& S) : valid_(S(0, 0) > 0 && std::isfinite(S(0, 0))), inverse_(1.0 / S(0, 0)) {}
+  bool valid() const { return valid_; }
+  template <class Rhs>
+  auto solve(const Rhs& rhs) const {
+    return (rhs * inverse_).eval();
+  }
+
+ private:
+  bool valid_;
+  double inverse_;
+};
+
+/// A prior seen from the measurement's rows: P H^T and H P H^T, shared by every iteration of an update.
+template <int N, int M>
+struct Projection {
+  Projection(const Matrix<N>& P, const Matrix<M, N>& H) : PHt(P * H.transpose()), HPHt(H * PHt) {}
+  Matrix<N, M> PHt;
+  Matrix<M> HPHt;
+};
+
+/// x^+ and P^+ = (I - K H) P (I - K H)^T + K R K^T (Joseph) for S = H P H^T + R, written as rank-M updates of P so that no N x N
+/// product is formed. `dx` = K innovation.
+template <int N, int M>
+Gaussian<N> condition(const Gaussian<N>& prior, const Projection<N, M>& projection, const Matrix<M>& R, const Innovation<M>& S,
+                      const Vector<M>& innovation) {
+  const Matrix<N, M> K = S.solve(projection.PHt.transpose()).transpose();
+  Gaussian<N> posterior;
+  posterior.mean.noalias() = prior.mean + K * innovation;
+  Matrix<N> IKH_P = prior.covariance;
+  IKH_P.noalias() -= K * projection.PHt.transpose();
+  const Matrix<N, M> right = projection.PHt - K * projection.HPHt - K * R;
+  posterior.covariance = IKH_P;
+  posterior.covariance.noalias() -= right * K.transpose();
+  symmetrize(posterior.covariance);
+  return posterior;
+}
+
+}  // namespace sas_motion

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "sas_motion/filters/kalman_filter.hpp"
+
+namespace sas_motion {
+
+/// Kalman filter with Gaussian scale-mixture measurement noise, sum p_j N(0, s_j R) in every row.
+///
+/// The posterior, a mixture of as many Gaussians as there are scales, is collapsed to its mean and covariance row by row, in closed form:
+/// one rank-one update, no iteration [Masreliez1975 for the score-function form; Sorenson1971 for Gaussian sums]. A reading is judged
+/// against prediction and noise together, and the doubt about it stays in the covariance. R is diagonal. With one scale of 1 this is the
+/// Kalman filter.
+template <int N>
+class MixtureKalmanFilter {
+ public:
+  using Belief = Gaussian<N>;
+  static constexpr int kScales = 4;
+
+  struct Options {
+    std::array<double, kScales> scales{1, 9, 100, 2500};              ///< s_j: variance over R [-]
+    std::array<double, kScales> probabilities{0.85, 0.05, 0.05, 0.05};  ///< p_j, taken relative to their sum [-]
+  };
+
+  /// Throws std::invalid_argument where a scale is not positive, a probability negative, or all probabilities are zero.
+  explicit MixtureKalmanFilter(const Options& options);
+
+  Belief predict(const Belief& belief, const Transition<N>& transition) const { return predictGaussian(belief, transition); }
+
+  template <int M>
+  Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
+
+ private:
+  /// Posterior probabilities of the scales for an innovation d with predicted variance v and noise r, as sums over 1 / S_j.
+  struct Collapse {
+    double inverse;          ///< E[1 / S]
+    double inverse_squared;  ///< E[1 / S^2]
+    double weight;           ///< E[1 / s]: the row's weight
+  };
+  Collapse collapse(double innovation, double v, double r) const;
+
+  Options options_;
+};
+
+}  // namespace sas_motion

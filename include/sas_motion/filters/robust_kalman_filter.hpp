@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sas_motion/filters/kalman_filter.hpp"
+#include "sas_motion/robust/loss.hpp"
+
+namespace sas_motion {
+
+/// Kalman filter by M-estimation [Zhu2007, eq 11-19; Cipra1991].
+///
+/// Minimises sum rho1(P^{-1/2}(x^- - x)) + sum rho2(R^{-1/2}(z - H x)) (15) by iteratively re-weighted least squares from the prediction.
+/// One iteration takes the weights at the prediction, as the paper does; there the process residuals are zero, so W1 = I whatever
+/// `robustify_process` says. Redescending losses start from the converged Huber answer. P^{1/2} is the symmetric root.
+template <int N>
+class RobustKalmanFilter {
+ public:
+  using Belief = Gaussian<N>;
+
+  struct Options {
+    Loss loss{LossKind::Huber};       ///< rho2, on measurements whitened by R
+    int max_iterations = 10;          ///< 1 is the paper's single pass
+    double tolerance = 1e-6;          ///< fixed point: no whitened residual moves more [-]
+    bool robustify_process = false;   ///< let W1 act, with the same loss
+  };
+
+  /// Throws std::invalid_argument where max_iterations < 1 or tolerance is not positive.
+  explicit RobustKalmanFilter(const Options& options);
+
+  Belief predict(const Belief& belief, const Transition<N>& transition) const { return predictGaussian(belief, transition); }
+
+  template <int M>
+  Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
+
+ private:
+  template <int M>
+  Update<Belief, M> updateMeasurementWeights(const Belief& prior, const LinearMeasurement<N, M>& z) const;
+  template <int M>
+  Update<Belief, M> updateBothWeights(const Belief& prior, const LinearMeasurement<N, M>& z) const;
+
+  Options options_;
+};
+
+}  // namespace sas_motion

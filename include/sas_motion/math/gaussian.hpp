@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sas_motion/math/types.hpp"
+
+namespace sas_motion {
+
+/// A belief about an N-vector: mean and covariance (symmetric, positive definite).
+template <int N>
+struct Gaussian {
+  Vector<N> mean = Vector<N>::Zero();
+  Matrix<N> covariance = Matrix<N>::Identity();
+};
+
+/// Every filter's belief can be summarised as a Gaussian; this one is its own summary.
+template <int N>
+const Gaussian<N>& gaussian(const Gaussian<N>& belief) {
+  return belief;
+}
+
+}  // namespace sas_motion

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+
+#include "sas_motion/pipeline/estimator.hpp"
+
+namespace sas_motion::towfish {
+
+/// A filter run over a window of history, so that late measurements are fused at their own time: the state is rewound to just before one
+/// and what came after is replayed.
+template <class Filter>
+class FilterTimeline final : public Estimator {
+ public:
+  FilterTimeline(const Filter& filter, const Config& config) : filter_(filter), config_(config), model_(config.model) {}
+
+  void process(const Measurement& z, Output& output) override;
+  void finish(Output& output) override;
+  std::optional<Estimate> current() const override;
+  std::optional<Estimate> at(Stamp stamp) const override;
+  void reset() override;
+
+ private:
+  /// The filter's state at a stamp, and the turn rate in force from then on.
+  struct Moment {
+    Stamp stamp = 0;
+    typename Filter::Belief belief;
+    Input input;
+    Stamp input_stamp = 0;
+  };
+  struct Entry {
+    Measurement z;
+    Moment after;
+    Audit audit;
+  };
+
+  bool started() const { return anchor_.has_value(); }
+  bool start();
+  void replay(std::size_t first);
+  Moment predicted(const Moment& from, Stamp stamp) const;
+  void fuse(const Moment& from, Entry& entry) const;
+  void settle(Stamp until, Output& output);
+  const Moment& momentBefore(std::size_t index) const { return index == 0 ? *anchor_ : entries_[index - 1].after; }
+
+  Filter filter_;
+  Config config_;
+  Model model_;
+  std::deque<Entry> entries_;      // sorted by before()
+  std::optional<Moment> anchor_;   // the state before the first entry
+  std::optional<Stamp> settled_;   // nothing at or before this stamp can change
+  Stamp start_stamp_ = 0;          // measurements up to here decided the start
+  bool start_settled_ = false;     // the start itself can no longer change
+  int stale_in_a_row_ = 0;
+};
+
+}  // namespace sas_motion::towfish

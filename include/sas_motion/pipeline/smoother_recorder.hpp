@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+
+#include "sas_motion/pipeline/estimator.hpp"
+#include "sas_motion/smoothers/problem.hpp"
+
+namespace sas_motion::towfish {
+
+/// A residual and its weights at a smoothed state. There is no innovation covariance: S and NIS stay zero.
+Audit smoothedAudit(const Measurement& z, const StateVector& x, const Model& model, const Vector<2>& weights, int iterations);
+
+/// A batch smoother as an estimator: it records every usable measurement and solves when the data end.
+class SmootherRecorder final : public Estimator {
+ public:
+  using Solve = std::function<SmootherResult(const SmoothingProblem&)>;
+
+  SmootherRecorder(const Config& config, Solve solve) : config_(config), solve_(std::move(solve)) {}
+
+  void process(const Measurement& z, Output& output) override;
+  void finish(Output& output) override;
+  std::optional<Estimate> current() const override { return std::nullopt; }
+  std::optional<Estimate> at(Stamp) const override { return std::nullopt; }
+  void reset() override { measurements_.clear(); }
+
+  /// The last solution, without its states.
+  const SmootherResult& summary() const { return summary_; }
+
+ private:
+  Config config_;
+  Solve solve_;
+  std::vector<Measurement> measurements_;
+  SmootherResult summary_;
+};
+
+}  // namespace sas_motion::towfish

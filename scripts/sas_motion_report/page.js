@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Unpacks plotly.js, draws the plots, and redraws them for another estimator, another colour scheme, or paper.
+const data = JSON.parse(document.getElementById('data').textContent);
+const chooser = document.getElementById('estimator');
+const figures = {track: trackFigure, errors: errorFigure, weights: weightFigure, nis: nisFigure, cost: costFigure};
+const PAPER_WIDTH = 660; // A4 within its margins [px]
+
+async function unpackPlotly() {
+  const packed = Uint8Array.from(atob(document.getElementById('plotly').textContent.trim()), c => c.charCodeAt(0));
+  const source = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+  const script = document.createElement('script');
+  script.textContent = await new Response(source).text();
+  document.head.append(script);
+}
+
+function currentTheme() {
+  const style = getComputedStyle(document.documentElement);
+  const read = name => style.getPropertyValue(`--${name}`).trim();
+  return {ink: read('ink'), soft: read('soft'), rule: read('rule'), bad: read('bad'), warn: read('warn'), shade: read('shade'),
+    colours: [0, 1, 2, 3, 4, 5, 6, 7].map(i => read(`c${i}`)), font: 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif',
+    narrow: document.documentElement.clientWidth < 640, coarse: matchMedia('(pointer: coarse)').matches};
+}
+
+function drawOne(name, theme) {
+  const place = document.getElementById(`plot-${name}`);
+  const {traces, layout} = figures[name](data, chooser.value, theme);
+  const empty = !traces.length;
+  place.hidden = empty;
+  const note = document.getElementById(`note-${name}`);
+  note.textContent = empty ? ` ${chooser.value} has none.` : thinningNote(name);
+  if (empty) return null;
+  if ('print' in document.documentElement.dataset) layout.width = PAPER_WIDTH;
+  return Plotly.react(place, traces, layout, {responsive: true, displaylogo: false, displayModeBar: theme.coarse || theme.narrow ? false : 'hover'});
+}
+
+function thinningNote(name) {
+  const strides = Object.values(data.estimators[chooser.value].updates).map(u => u.stride);
+  const most = Math.max(1, ...strides);
+  return ['weights', 'nis'].includes(name) && most > 1 ? ` Drawn are all that were set aside and one in ${most} of the others.` : '';
+}
+
+function draw() {
+  document.getElementById('chosen').textContent = chooser.value;
+  const theme = currentTheme();
+  const drawn = Object.keys(figures).filter(name => document.getElementById(`plot-${name}`)).map(name => drawOne(name, theme));
+  return Promise.all(drawn).then(() => { document.documentElement.dataset.drawn = chooser.value; });
+}
+
+function drawForPaper(paper) {
+  document.documentElement.toggleAttribute('data-print', paper);
+  draw();
+}
+
+async function start() {
+  try {
+    await unpackPlotly();
+    await draw();
+  } catch (error) {
+    const problem = document.getElementById('problem');
+    problem.textContent = `The plots cannot be drawn in this browser (${error.message}); the tables are complete.`;
+    problem.hidden = false;
+    return;
+  }
+  chooser.addEventListener('change', draw);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
+  matchMedia('(max-width: 639px)').addEventListener('change', draw);
+  addEventListener('beforeprint', () => drawForPaper(true));
+  addEventListener('afterprint', () => drawForPaper(false));
+}
+
+if (data.order.length) start();

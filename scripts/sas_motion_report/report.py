@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: 2026 The sas_motion authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The HTML report: one file that opens without a network."""
+import base64
+import gzip
+import json
+import os
+from html import escape
+from string import Template
+
+from . import ReportError, tables
+from .columns import quantity
+from .figures import figure_data
+from .headline import headline
+
+FIGURES = [
+    ('track', 'Track', 'Truth, every estimator, the GNSS fixes, and what the chosen estimator made of them. Far outliers may lie beyond the edge; double-click to see all.'),
+    ('errors', 'Errors', 'Estimate minus truth, and ±3σ of the stated covariance. Shaded: not scored, or without a position fix.'),
+    ('weights', 'Weights', 'How much the estimator believed each measurement; below one half it counts as set aside.'),
+    ('nis', 'Normalised innovations squared', 'Of a consistent filter 95 % lie in the band.'),
+]
+
+
+def render(metrics, series):
+    """Returns the page as text."""
+    try:
+        data = figure_data(metrics, series)
+        parts = {**texts(metrics), **sections(metrics, data)}
+        parts['data'] = json.dumps(data, allow_nan=False, separators=(',', ':')).replace('<', '\\u003c')
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        raise ReportError(f'metrics.json or series.json has not the form of docs/metrics.schema.json ({error}); run evaluate.py on the bag again') from None
+    parts.update(style=asset('style.css'), script=asset('figures.js') + asset('page.js'), plotly=packed_plotly())
+    return Template(asset('template.html')).substitute(parts)
+
+
+def asset(name):
+    """Returns the text of a file beside this one."""
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), name), encoding='utf-8') as file:
+        return file.read()
+
+
+def packed_plotly():
+    """Returns plotly.js compressed as base64, a quarter of its 9 MB; the page unpacks it."""
+    try:
+        from plotly.offline import get_plotlyjs
+        source = get_plotlyjs()
+    except (ImportError, OSError):
+        raise ReportError('plotly is not installed, so report.html cannot be written; run scripts/setup.sh or install python3-plotly') from None
+    return base64.b64encode(gzip.compress(source.encode('utf-8'), 9, mtime=0)).decode('ascii')
+
+
+def texts(metrics):
+    """Returns title, facts and headline."""
+    facts = [f'{quantity(metrics.get("duration"))} s', f'{quantity(metrics.get("distance"))} m', f'truth: {metrics.get("truth", "unknown")}',
+             f'the first {quantity(metrics.get("skipped"), "0")} s are not scored']
+    first, *others = headline(metrics)
+    more = ''.join(f'<li>{escape(sentence)}</li>' for sentence in others)
+    return {'bag': escape(str(metrics.get('bag', 'bag'))), 'facts': escape(', '.join(facts)), 'lead': escape(first), 'more': f'<ul>{more}</ul>' if more else ''}
+
+
+def sections(metrics, data):
+    """Returns the tables and plots of the page."""
+    after = [('consistency', 'Consistency', tables.consistency(metrics)),
+             ('measurements', 'Outliers and verdicts', tables.outliers(metrics) + tables.verdicts(metrics)),
+             ('cost', 'Cost against accuracy', figure('cost', 'Lower left is better: less computing, less error.') if data['cost'] else ''),
+             ('outages', 'Outages', tables.outages(metrics))]
+    return {'results': tables.results(metrics), 'choices': ''.join(f'<option>{escape(name)}</option>' for name in data['order']),
+            'plots': ''.join(section(f'section-{name}', title, figure(name, caption)) for name, title, caption in FIGURES),
+            'after': ''.join(section(f'section-{name}', title, body) for name, title, body in after if body)}
+
+
+def figure(name, caption):
+    """Returns a plot's place in the page."""
+    return f'<figure><div class="plot" id="plot-{name}"></div><figcaption>{caption}<span id="note-{name}"></span></figcaption></figure>'
+
+
+def section(name, title, body):
+    """Returns a titled part of the page."""
+    return f'<section id="{name}"><h2>{title}</h2>{body}</section>'

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/filters/student_t_kalman_filter.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "instantiate.hpp"
+#include "sas_motion/filters/conditioning.hpp"
+
+namespace sas_motion {
+
+template <int N>
+StudentTKalmanFilter<N>::StudentTKalmanFilter(const Options& options) : options_(options) {
+  if (!(options.degrees_of_freedom > 0))
+    throw std::invalid_argument(fmt::format("degrees_of_freedom is {} but must be positive", options.degrees_of_freedom));
+  if (options.max_iterations < 1) throw std::invalid_argument(fmt::format("max_iterations is {} but must be at least 1", options.max_iterations));
+  if (!(options.tolerance > 0)) throw std::invalid_argument(fmt::format("tolerance is {} but must be positive", options.tolerance));
+}
+
+template <int N>
+template <int M>
+Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
+  Update<Belief, M> result;
+  const Projection<N, M> projection(prior.covariance, z.H);
+  const Matrix<M>& T = projection.HPHt;
+  const Vector<M> variance = z.R.diagonal();
+  result.belief = prior;
+  result.innovation = z.innovation;
+  result.S = T + z.R;
+  const Innovation<M> S_nominal(result.S);
+  result.nis = z.innovation.dot(S_nominal.solve(z.innovation));
+  if (!S_nominal.valid() || !std::isfinite(result.nis)) {
+    result.verdict = Verdict::Invalid;
+    return result;
+  }
+  const double nu = options_.degrees_of_freedom;
+  Matrix<M> R = z.R;
+  result.converged = false;
+  for (result.iterations = 0; result.iterations < options_.max_iterations && !result.converged;) {
+    ++result.iterations;
+    const Innovation<M> S(T + R);
+    const Vector<M> residual = z.innovation - T * S.solve(z.innovation);
+    const Vector<M> posterior_variance = T.diagonal() - (T * S.solve(T)).diagonal();
+    const Vector<M> squared = residual.cwiseAbs2() + posterior_variance;
+    const Vector<M> weights = (nu + 1) / (nu + squared.cwiseQuotient(variance).array());
+    result.converged = (weights - result.weights).cwiseAbs().maxCoeff() < options_.tolerance;
+    result.weights = weights;
+    R = variance.cwiseQuotient(weights).asDiagonal();
+  }
+  result.belief = condition(prior, projection, R, Innovation<M>(T + R), z.innovation);
+  result.verdict = verdictFromWeights(result.weights);
+  return result;
+}
+
+SAS_MOTION_INSTANTIATE_UPDATES(StudentTKalmanFilter)
+
+}  // namespace sas_motion

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/navigation/local_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace sas_motion {
+namespace {
+
+const Geodetic& checked(const Geodetic& datum) {
+  if (!(std::abs(datum.latitude_deg) <= 90) || !std::isfinite(datum.longitude_deg) || !std::isfinite(datum.altitude))
+    throw std::invalid_argument(fmt::format("the datum {}, {}, {} is no place on Earth", datum.latitude_deg, datum.longitude_deg, datum.altitude));
+  return datum;
+}
+
+}  // namespace
+
+LocalFrame::LocalFrame(const Geodetic& datum) : datum_(checked(datum)), plane_(datum.latitude_deg, datum.longitude_deg, datum.altitude) {}
+
+Vector<3> LocalFrame::position_enu(const Geodetic& point) const {
+  Vector<3> position;
+  plane_.Forward(point.latitude_deg, point.longitude_deg, point.altitude, position(0), position(1), position(2));
+  return position;
+}
+
+Geodetic LocalFrame::geodetic(const Vector<3>& position_enu) const {
+  Geodetic point;
+  plane_.Reverse(position_enu(0), position_enu(1), position_enu(2), point.latitude_deg, point.longitude_deg, point.altitude);
+  return point;
+}
+
+}  // namespace sas_motion

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/pipeline/filter_timeline.hpp"
+
+#include <algorithm>
+
+#include "sas_motion/filters/kalman_filter.hpp"
+#include "sas_motion/filters/mixture_kalman_filter.hpp"
+#include "sas_motion/models/towfish_start.hpp"
+
+namespace sas_motion::towfish {
+namespace {
+
+constexpr int kClockHasJumped = 50;  // so many stale measurements in a row mean that the clock was set back: start again
+
+template <class Belief, int M>
+Audit auditOf(const Measurement& z, const Update<Belief, M>& update) {
+  Audit audit;
+  audit.stamp = z.stamp;
+  audit.sensor = z.sensor;
+  audit.rows = M;
+  audit.innovation.template head<M>() = update.innovation;
+  audit.S.template topLeftCorner<M, M>() = update.S;
+  audit.nis = update.nis;
+  audit.weights.template head<M>() = update.weights;
+  audit.iterations = update.iterations;
+  audit.verdict = update.verdict;
+  if (update.verdict == Verdict::Invalid) audit.reason = "numerically singular";
+  if (update.verdict == Verdict::Rejected) audit.reason = "outside the gate";
+  if (update.verdict == Verdict::DownWeighted) audit.reason = "residual too large for its noise";
+  return audit;
+}
+
+}  // namespace
+
+template <class Filter>
+void FilterTimeline<Filter>::process(const Measurement& z, Output& output) {
+  if (const char* reason = invalidity(z, config_)) {
+    output.audits.push_back(refusal(z, Verdict::Invalid, reason));
+    return;
+  }
+  if (settled_ && z.stamp <= *settled_) {
+    output.audits.push_back(refusal(z, Verdict::Stale, "older than the lag"));
+    if (++stale_in_a_row_ < kClockHasJumped) return;
+    finish(output);
+    reset();
+  }
+  stale_in_a_row_ = 0;
+
+  const auto place = std::lower_bound(entries_.begin(), entries_.end(), z, [](const Entry& a, const Measurement& b) { return before(a.z, b); });
+  if (place != entries_.end() && !before(z, place->z)) {
+    output.audits.push_back(refusal(z, Verdict::Invalid, "duplicate stamp"));
+    return;
+  }
+  const auto index = static_cast<std::size_t>(place - entries_.begin());
+  entries_.insert(place, Entry{z, {}, {}});
+
+  const bool decides_start = started() && !start_settled_ && z.stamp <= start_stamp_;
+  if (!started() || decides_start) {
+    anchor_.reset();
+    if (start()) replay(0);
+  } else {
+    replay(index);
+  }
+  settle(entries_.back().z.stamp - stampFromSeconds(config_.lag), output);
+}
+
+template <class Filter>
+bool FilterTimeline<Filter>::start() {
+  const Stamp first = entries_.front().z.stamp;
+  const Stamp end = first + stampFromSeconds(config_.start.window);
+  if (entries_.back().z.stamp < end) return false;
+  std::vector<Measurement> window;
+  for (const auto& entry : entries_)
+    if (entry.z.stamp <= end) window.push_back(entry.z);
+  const auto belief = startingBelief(first, window, config_.start, config_.model.current_sigma);
+  if (!belief) return false;
+  anchor_.emplace();
+  anchor_->stamp = first;
+  anchor_->belief = typename Filter::Belief{*belief};
+  start_stamp_ = end;
+  return true;
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::replay(std::size_t first) {
+  for (std::size_t i = first; i < entries_.size(); ++i) fuse(momentBefore(i), entries_[i]);
+}
+
+template <class Filter>
+typename FilterTimeline<Filter>::Moment FilterTimeline<Filter>::predicted(const Moment& from, Stamp stamp) const {
+  Moment to = from;
+  to.stamp = stamp;
+  if (stamp == from.stamp) return to;
+  const bool known = secondsBetween(from.input_stamp, stamp) <= config_.input_hold;
+  const auto transition = model_.transition(gaussian(from.belief).mean, known ? from.input : Input{}, secondsBetween(from.stamp, stamp));
+  to.belief = filter_.predict(from.belief, transition);
+  return to;
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::fuse(const Moment& from, Entry& entry) const {
+  const Measurement& z = entry.z;
+  entry.after = predicted(from, z.stamp);
+  if (z.sensor == Sensor::TurnRate) {
+    entry.after.input.turn_rate = z.value(0);
+    entry.after.input_stamp = z.stamp;
+    entry.audit = refusal(z, Verdict::Accepted, "");
+    return;
+  }
+  model_.linearize(z, gaussian(entry.after.belief).mean, [&](const auto& linear) {
+    auto update = filter_.update(entry.after.belief, linear);
+    entry.audit = auditOf(z, update);
+    entry.after.belief = update.belief;
+  });
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::settle(Stamp until, Output& output) {
+  while (!entries_.empty() && entries_.front().z.stamp <= until) {
+    const Entry& entry = entries_.front();
+    settled_ = entry.z.stamp;
+    if (started()) {
+      start_settled_ = true;
+      const bool last_of_stamp = entries_.size() == 1 || entries_[1].z.stamp != entry.z.stamp;
+      if (entry.audit.rows > 0) output.audits.push_back(entry.audit);
+      if (last_of_stamp) output.estimates.push_back({entry.z.stamp, gaussian(entry.after.belief)});
+      anchor_ = entry.after;
+    } else {
+      output.audits.push_back(refusal(entry.z, Verdict::Stale, "before the first position and heading"));
+    }
+    entries_.pop_front();
+  }
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::finish(Output& output) {
+  if (!entries_.empty()) settle(entries_.back().z.stamp, output);
+}
+
+template <class Filter>
+std::optional<Estimate> FilterTimeline<Filter>::current() const {
+  if (!started()) return std::nullopt;
+  const Moment& newest = momentBefore(entries_.size());
+  return Estimate{newest.stamp, gaussian(newest.belief)};
+}
+
+template <class Filter>
+std::optional<Estimate> FilterTimeline<Filter>::at(Stamp stamp) const {
+  if (!started() || stamp < anchor_->stamp) return std::nullopt;
+  const auto after = std::upper_bound(entries_.begin(), entries_.end(), stamp, [](Stamp s, const Entry& entry) { return s < entry.z.stamp; });
+  return Estimate{stamp, gaussian(predicted(momentBefore(static_cast<std::size_t>(after - entries_.begin())), stamp).belief)};
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::reset() {
+  entries_.clear();
+  anchor_.reset();
+  settled_.reset();
+  start_settled_ = false;
+  stale_in_a_row_ = 0;
+}
+
+template class FilterTimeline<KalmanFilter<kStates>>;
+template class FilterTimeline<GatedKalmanFilter<kStates>>;
+template class FilterTimeline<MixtureKalmanFilter<kStates>>;
+template class FilterTimeline<RobustKalmanFilter<kStates>>;
+template class FilterTimeline<StudentTKalmanFilter<kStates>>;
+
+}  // namespace sas_motion::towfish

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/simulation/simulator.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace sas_motion::towfish {
+namespace {
+
+enum Stream : std::uint64_t { kProcessStream = 100, kSensorStream = 200, kCurrentStream = 300, kWaveStream = 400 };
+
+/// Three waves near one period, of total standard deviation 1, and their rate of change.
+struct Waves {
+  double value = 0, rate = 0;
+  Waves(double time, double period, const std::array<double, 3>& phases) {
+    const std::array<double, 3> ratio{0.83, 1.0, 1.31};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double omega = 2 * kPi / (period * ratio[i]), amplitude = std::sqrt(2.0 / 3.0);
+      value += amplitude * std::sin(omega * time + phases[i]);
+      rate += amplitude * omega * std::cos(omega * time + phases[i]);
+    }
+  }
+};
+
+}  // namespace
+
+Simulator::Simulator(const Scenario& scenario, std::uint64_t seed)
+    : scenario_(scenario), model_(scenario.motion), current_noise_(seed, kCurrentStream) {
+  for (std::uint64_t i = 0; i < kStates; ++i) process_.emplace_back(scenario.process, seed, kProcessStream + i);
+  for (std::uint64_t i = 0; i < 2 * kSensors; ++i)
+    sensor_.emplace_back(scenario.sensors[i / 2].noise, seed, kSensorStream + i);
+  Random waves(seed, kWaveStream);
+  for (auto& phase : phases_) phase = 2 * kPi * waves.uniform();
+  current_ = scenario.current;
+  course_ = scenario.heading;
+}
+
+bool Simulator::next() {
+  ++step_;
+  if (time() > scenario_.duration + 1e-9) return false;
+  truth_.stamp = kStart + step_ * stampFromSeconds(scenario_.step);
+  if (step_ == 0)
+    truth_.state << 0, 0, current_, wrapAngle(scenario_.heading), scenario_.speed;
+  else if (scenario_.kind == Scenario::Kind::RandomWalk)
+    moveRandomWalk();
+  else
+    moveSurvey();
+  measure();
+  return true;
+}
+
+void Simulator::moveRandomWalk() {
+  const auto step = model_.transition(truth_.state, Input{}, scenario_.step);
+  const StateMatrix root = step.Q.llt().matrixL();
+  StateVector noise;
+  for (int i = 0; i < kStates; ++i) noise(i) = process_[static_cast<std::size_t>(i)].draw(time()).value;
+  truth_.state = step.mean + root * noise;
+  truth_.state(kHeading) = wrapAngle(truth_.state(kHeading));
+}
+
+void Simulator::moveCurrent() {
+  const double decay = std::exp(-scenario_.step / scenario_.motion.current_time_constant);
+  const double drive = scenario_.motion.current_sigma * std::sqrt(1 - decay * decay);
+  for (int i = 0; i < 2; ++i) current_(i) = scenario_.current(i) + decay * (current_(i) - scenario_.current(i)) + drive * current_noise_.gaussian();
+}
+
+void Simulator::moveSurvey() {
+  const double dt = scenario_.step, now = time();
+  moveCurrent();
+  leg_time_ += dt;
+  double course_rate = 0;
+  if (turning_) {
+    course_rate = turn_side_ * scenario_.turn_rate;
+    turned_ += scenario_.turn_rate * dt;
+    if (turned_ >= kPi) {
+      turning_ = false;
+      turn_side_ = -turn_side_;
+      leg_time_ = 0;
+    }
+  } else if (leg_time_ * scenario_.speed >= scenario_.line_length) {
+    turning_ = true;
+    turned_ = 0;
+  }
+  course_ += course_rate * dt;
+  const Waves yaw(now, scenario_.yaw_period, phases_), surge(now, 1.7 * scenario_.yaw_period, phases_);
+  StateVector& x = truth_.state;
+  const double heading = course_ + scenario_.yaw_sigma * yaw.value, speed = scenario_.speed + scenario_.surge_sigma * surge.value;
+  const double middle_heading = x(kHeading) + 0.5 * wrapAngle(heading - x(kHeading)), middle_speed = 0.5 * (speed + x(kSpeed));
+  Vector<2> current = current_;
+  if (scenario_.front.time >= 0) current += scenario_.front.change * 0.5 * (1 + std::tanh(2 * (now - scenario_.front.time) / scenario_.front.width));
+  x(kNorth) += dt * (0.5 * (x(kCurrentNorth) + current(0)) + middle_speed * std::cos(middle_heading));
+  x(kEast) += dt * (0.5 * (x(kCurrentEast) + current(1)) + middle_speed * std::sin(middle_heading));
+  x(kCurrentNorth) = current(0);
+  x(kCurrentEast) = current(1);
+  x(kHeading) = wrapAngle(heading);
+  x(kSpeed) = speed;
+  truth_.turn_rate = course_rate + scenario_.yaw_sigma * yaw.rate;
+}
+
+void Simulator::measure() {
+  measurements_.clear();
+  for (int i = 0; i < kSensors; ++i) {
+    const auto sensor = static_cast<Sensor>(i);
+    const SimulatedSensor& options = scenario_.sensor(sensor);
+    if (options.rate <= 0) continue;
+    const long every = std::lround(1 / (options.rate * scenario_.step)), offset = std::lround(options.phase / scenario_.step);
+    if (step_ < offset || (step_ - offset) % every != 0) continue;
+    LabelledMeasurement labelled;
+    Measurement& z = labelled.z;
+    z.stamp = truth_.stamp;
+    z.sensor = sensor;
+    z.variance.setConstant(options.sigma * options.sigma);
+    if (sensor == Sensor::Position) z.lever_arm_body = scenario_.gnss_lever_arm_body;
+    z.value = sensor == Sensor::TurnRate ? Vector<2>(truth_.turn_rate, 0) : Model::expected(z, truth_.state);
+    for (int row = 0; row < std::max(1, rowsOf(sensor)); ++row) {
+      const NoiseSample noise = sensor_[static_cast<std::size_t>(2 * i + row)].draw(time());
+      z.value(row) += options.sigma * noise.value;
+      labelled.outlier[static_cast<std::size_t>(row)] = noise.outlier;
+    }
+    if (sensor == Sensor::Heading) z.value(0) = wrapAngle(z.value(0));
+    measurements_.push_back(labelled);
+  }
+}
+
+}  // namespace sas_motion::towfish

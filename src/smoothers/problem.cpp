@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/smoothers/problem.hpp"
+
+#include <cmath>
+
+#include "sas_motion/math/factorization.hpp"
+#include "sas_motion/models/towfish_start.hpp"
+
+namespace sas_motion::towfish {
+namespace {
+
+/// Half the squared Mahalanobis length of a residual.
+double halfSquared(const Matrix<kStates>& covariance, const StateVector& residual) {
+  return 0.5 * residual.dot(covariance.llt().solve(residual));
+}
+
+std::vector<Measurement> startWindow(const std::vector<Measurement>& measurements, const Config& config) {
+  std::vector<Measurement> window;
+  const Stamp end = measurements.front().stamp + stampFromSeconds(config.start.window);
+  for (const auto& z : measurements) {
+    if (z.stamp > end) break;
+    window.push_back(z);
+  }
+  return window;
+}
+
+}  // namespace
+
+std::optional<SmoothingProblem> buildProblem(const std::vector<Measurement>& measurements, const Config& config) {
+  if (measurements.empty()) return std::nullopt;
+  const auto prior = startingBelief(measurements.front().stamp, startWindow(measurements, config), config.start, config.model.current_sigma);
+  if (!prior) return std::nullopt;
+
+  SmoothingProblem problem{Model(config.model), *prior, {}, {}, {}, {}, {}, {}};
+  const RobustKalmanFilter<kStates> filter(config.robust_kf);
+  Gaussian<kStates> belief = *prior;
+  Input input;
+  Stamp input_stamp = 0;
+  for (const auto& z : measurements) {
+    if (problem.stamps.empty() || z.stamp != problem.stamps.back()) {
+      const double dt = problem.stamps.empty() ? 0 : secondsBetween(problem.stamps.back(), z.stamp);
+      const Input known = secondsBetween(input_stamp, z.stamp) <= config.input_hold ? input : Input{};
+      const auto transition = problem.model.transition(belief.mean, known, dt);
+      if (!problem.stamps.empty()) belief = filter.predict(belief, transition);
+      problem.stamps.push_back(z.stamp);
+      problem.inputs.push_back(known);
+      problem.Q.push_back(transition.Q);
+      problem.initial.push_back(belief.mean);
+      problem.first.push_back(problem.measurements.size());
+    }
+    if (z.sensor == Sensor::TurnRate) {
+      input.turn_rate = z.value(0);
+      input_stamp = z.stamp;
+    } else {
+      problem.measurements.push_back(z);
+      problem.model.linearize(z, belief.mean, [&](const auto& linear) { belief = filter.update(belief, linear).belief; });
+      problem.initial.back() = belief.mean;
+    }
+  }
+  problem.first.push_back(problem.measurements.size());
+  return problem;
+}
+
+double cost(const SmoothingProblem& problem, const Loss& loss, const std::vector<StateVector>& states) {
+  double sum = halfSquared(problem.prior.covariance, Model::difference(states[0], problem.prior.mean));
+  for (std::size_t k = 0; k < problem.nodes(); ++k) {
+    if (k > 0) {
+      const StateVector predicted = problem.model.predict(states[k - 1], problem.inputs[k], problem.dt(k));
+      sum += halfSquared(problem.Q[k], Model::difference(states[k], predicted));
+    }
+    for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j)
+      problem.model.linearize(problem.measurements[j], states[k], [&](const auto& z) {
+        for (int row = 0; row < z.innovation.rows(); ++row) sum += loss.rho(z.innovation(row) / std::sqrt(z.R(row, row)));
+      });
+  }
+  return sum;
+}
+
+Vector<2> weightsAt(const Measurement& z, const StateVector& x, const Model& model, const Loss& loss) {
+  Vector<2> weights = Vector<2>::Ones();
+  model.linearize(z, x, [&](const auto& linear) {
+    for (int row = 0; row < linear.innovation.rows(); ++row) weights(row) = loss.weight(linear.innovation(row) / std::sqrt(linear.R(row, row)));
+  });
+  return weights;
+}
+
+std::vector<Vector<2>> weightsAt(const SmoothingProblem& problem, const Loss& loss, const std::vector<StateVector>& states) {
+  std::vector<Vector<2>> weights(problem.measurements.size());
+  for (std::size_t k = 0; k < problem.nodes(); ++k)
+    for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j)
+      weights[j] = weightsAt(problem.measurements[j], states[k], problem.model, loss);
+  return weights;
+}
+
+}  // namespace sas_motion::towfish
