@@ -61,9 +61,11 @@ function trackView(data) {
 function stackedFigure(data, theme, rows, shapes) {
   const layout = frame(theme, 90 + rows.length * (theme.narrow ? 150 : 170), {shapes, showlegend: false});
   layout.xaxis = axis(theme, {title: 'time [s]', anchor: `y${rows.length > 1 ? rows.length : ''}`, range: data.duration ? [0, data.duration] : undefined});
+  const gap = 0.1 / rows.length;
+  const height = (1 - gap * (rows.length - 1)) / rows.length;
   rows.forEach(([title, , look], i) => {
-    const top = 1 - i / rows.length;
-    layout[`yaxis${i ? i + 1 : ''}`] = axis(theme, {title, domain: [top - 0.9 / rows.length, top], ...look});
+    const bottom = Math.max(0, 1 - (i + 1) * height - i * gap);
+    layout[`yaxis${i ? i + 1 : ''}`] = axis(theme, {title, domain: [bottom, bottom + height], ...look});
   });
   return {traces: rows.flatMap(([, traces], i) => traces.map(trace => ({...trace, xaxis: 'x', yaxis: `y${i ? i + 1 : ''}`}))), layout};
 }
@@ -111,7 +113,7 @@ function nisFigure(data, chosen, theme) {
     const updates = data.estimators[chosen].updates[sensor];
     const top = Math.max(30, ...finiteOnly(updates.nis));
     return [sensor, updateTraces(data, chosen, theme, updates, 'nis', i => updates.nis[i] > data.bands[sensor][1]),
-      {type: 'log', range: [-3, Math.log10(top) + 0.3], dtick: theme.narrow ? 2 : 1, exponentformat: 'power', uirevision: chosen}];
+      {type: 'log', range: [-3, Math.log10(top) + 0.3], tickvals: [0.01, 1, 100, 1e4, 1e6], ticktext: ['0.01', '1', '100', '10⁴', '10⁶'], uirevision: chosen}];
   });
   const band = (sensor, i) => ({type: 'rect', xref: 'paper', x0: 0, x1: 1, yref: `y${i ? i + 1 : ''}`, y0: data.bands[sensor][0], y1: data.bands[sensor][1],
     fillcolor: theme.shade, line: {width: 0}, layer: 'below'});

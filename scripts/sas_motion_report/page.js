@@ -49,7 +49,7 @@ function draw() {
 
 function drawForPaper(paper) {
   document.documentElement.toggleAttribute('data-print', paper);
-  draw();
+  draw().then(() => paper || document.querySelectorAll('.plot.js-plotly-plot').forEach(place => Plotly.Plots.resize(place)));
 }
 
 async function start() {

@@ -7,6 +7,8 @@ from .columns import PAGE, best, number, outside, percent, quantity, value
 from .inputs import SENSORS, dig, ranked
 
 STATES = ('position', 'heading', 'speed', 'current')
+CONSISTENCY = ('Means against their χ² bands. Above: the stated uncertainty is too small; below: too large. The bands suppose independent samples; '
+               'errors that last, as those of position do, leave them sooner.')
 VERDICTS = ('accepted', 'down_weighted', 'rejected', 'stale', 'invalid')
 
 
@@ -48,7 +50,7 @@ def consistency(metrics):
         bands = [('NEES', g, dig(e, 'nees', g)) for g in STATES] + [('NIS', g, dig(e, 'nis', g)) for g in SENSORS]
         rows += [[escape(name), f'{kind} {group}'] + band_cells(band) for kind, group, band in bands if band]
     header = ['estimator', 'of', 'mean', 'expected', '95 % band', 'inside, %', 'reading']
-    return table('Means against their χ² bands. Above: the stated uncertainty is too small; below: too large.', header, rows, 'consistency') if rows else ''
+    return table(CONSISTENCY, header, rows, 'consistency') if rows else ''
 
 
 def band_cells(band):

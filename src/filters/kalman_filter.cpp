@@ -26,7 +26,7 @@ Update<Gaussian<N>, M> KalmanFilter<N>::update(const Belief& prior, const Linear
   result.S = projection.HPHt + z.R;
   const Innovation<M> S(result.S);
   result.nis = z.innovation.dot(S.solve(z.innovation));
-  if (S.valid() && std::isfinite(result.nis)) {
+  if (S.valid() && positiveDefinite(z.R) && std::isfinite(result.nis)) {
     result.belief = condition(prior, projection, z.R, S, z.innovation);
   } else {
     result.belief = prior;

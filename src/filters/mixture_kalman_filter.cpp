@@ -56,7 +56,7 @@ Update<Gaussian<N>, M> MixtureKalmanFilter<N>::update(const Belief& prior, const
   result.S = projection.HPHt + z.R;
   const Innovation<M> S(result.S);
   result.nis = z.innovation.dot(S.solve(z.innovation));
-  if (!S.valid() || !std::isfinite(result.nis)) {
+  if (!S.valid() || !positiveDefinite(z.R) || !std::isfinite(result.nis)) {
     result.verdict = Verdict::Invalid;
     return result;
   }

@@ -31,7 +31,7 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
   result.S = T + z.R;
   const Innovation<M> S_nominal(result.S);
   result.nis = z.innovation.dot(S_nominal.solve(z.innovation));
-  if (!S_nominal.valid() || !std::isfinite(result.nis)) {
+  if (!S_nominal.valid() || !positiveDefinite(z.R) || !std::isfinite(result.nis)) {
     result.verdict = Verdict::Invalid;
     return result;
   }

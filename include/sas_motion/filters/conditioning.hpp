@@ -41,6 +41,12 @@ class Innovation<1> {
   double inverse_;
 };
 
+/// Whether R is a noise covariance at all: a negative variance can still leave S positive.
+template <int M>
+bool positiveDefinite(const Matrix<M>& R) {
+  return M == 1 ? R(0, 0) > 0 : Eigen::LLT<Matrix<M>>(R).info() == Eigen::Success;
+}
+
 /// A prior seen from the measurement's rows: P H^T and H P H^T, shared by every iteration of an update.
 template <int N, int M>
 struct Projection {

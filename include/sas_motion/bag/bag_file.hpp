@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sas_motion/io/atomic_file.hpp"
+
+namespace sas_motion::ros_side {
+
+/// Opens a bag for reading. Throws std::runtime_error: one sentence that names the file and says what to do (missing, not a bag, without
+/// an index, cut short).
+std::unique_ptr<rosbag::Bag> openBag(const std::string& path);
+
+/// A bag that appears under its name only when it is whole.
+class BagOutput {
+ public:
+  explicit BagOutput(const std::string& path);
+
+  template <class Message>
+  void write(const std::string& topic, ros::Time time, const Message& message) {
+    bag_.write(topic, time, message);
+  }
+  /// As a latched topic, so that late subscribers to a played bag still get it.
+  template <class Message>
+  void writeLatched(const std::string& topic, ros::Time time, const Message& message) {
+    bag_.write(topic, time, message, latchedHeader<Message>());
+  }
+  rosbag::Bag& bag() { return bag_; }
+  /// Closes and puts in place. Throws std::runtime_error naming the file.
+  void commit();
+
+ private:
+  template <class Message>
+  static boost::shared_ptr<ros::M_string> latchedHeader() {
+    auto header = boost::make_shared<ros::M_string>();
+    (*header)["latching"] = "1";
+    (*header)["callerid"] = "/sas_motion";
+    (*header)["type"] = ros::message_traits::datatype<Message>();
+    (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+    (*header)["message_definition"] = ros::message_traits::definition<Message>();
+    return header;
+  }
+
+  std::string path_;
+  AtomicFile file_;
+  rosbag::Bag bag_;
+};
+
+/// A topic's name without its leading slash: bags recorded live have one, bags written by tools often not.
+inline std::string bareTopic(const std::string& topic) { return !topic.empty() && topic[0] == '/' ? topic.substr(1) : topic; }
+
+}  // namespace sas_motion::ros_side

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rosbag/view.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sas_motion/ros/settings.hpp"
+
+namespace sas_motion::ros_side {
+
+/// The topics of a bag that hold the sensors, as the bag spells them; empty where there is none.
+struct SensorTopics {
+  std::string fix, imu, twist;
+  std::set<std::string> transforms;
+};
+
+/// Finds each sensor by its configured topic or, where the bag has no such topic, by its type when only one topic has it. Throws
+/// std::runtime_error where there is neither a position nor a heading, or where the choice is ambiguous.
+SensorTopics findTopics(const rosbag::View& view, const Settings& settings, const std::string& file);
+
+/// Whether a topic is what one of these estimators, or the datum, wrote in an earlier run.
+bool isEstimate(const std::string& topic, const std::vector<std::string>& estimators);
+
+}  // namespace sas_motion::ros_side

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "sas_motion/io/atomic_file.hpp"
+#include "sas_motion/pipeline/estimator.hpp"
+
+namespace sas_motion::ros_side {
+
+/// A trajectory in the TUM format that evo reads: stamp x y z qx qy qz qw, east, north and up of the datum [m].
+class TumFile {
+ public:
+  explicit TumFile(const std::string& path);
+  ~TumFile();
+  TumFile(const TumFile&) = delete;
+  TumFile& operator=(const TumFile&) = delete;
+
+  void write(const towfish::Estimate& estimate);
+  /// Throws std::runtime_error naming the file where the disk is full.
+  void commit();
+
+ private:
+  std::string path_;
+  AtomicFile file_;
+  std::FILE* stream_;
+};
+
+}  // namespace sas_motion::ros_side

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sas_motion/config/towfish_config.hpp"
+#include "sas_motion/navigation/local_frame.hpp"
+
+namespace sas_motion::ros_side {
+
+/// The configuration file of the nodelets and of reprocess: the estimators' settings, and what ties them to messages.
+struct Settings {
+  towfish::Config estimation;
+  std::string fix_topic = "gnss/fix";
+  std::string imu_topic = "imu/data";
+  std::string twist_topic = "dvl/twist";
+  std::string map_frame = "map";
+  std::string odom_frame = "odom";
+  std::string base_frame = "base_link";
+  double frame_timeout = 2;         ///< a message of a frame not yet known waits this long for its transform [s]
+  std::optional<Geodetic> datum;    ///< origin of the map frame; the first fix where there is none
+
+  /// Throws ConfigError. An empty name gives the defaults.
+  static Settings fromFile(const std::string& file);
+};
+
+}  // namespace sas_motion::ros_side

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/bag/recording.hpp"
+
+#include <fmt/format.h>
+#include <sas_motion/MeasurementLabel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "sas_motion/bag/bag_file.hpp"
+
+namespace sas_motion::ros_side {
+namespace {
+
+using namespace towfish;
+
+constexpr double kLongestGap = 5;  // between two truths, that is interpolated over [s]
+
+double headingOf(const geometry_msgs::Quaternion& q) {
+  const double yaw = std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
+  return wrapAngle(kPi / 2 - yaw);
+}
+
+/// The state group by group, as far as an odometry message has it; covariances between groups that no message carries are zero.
+Estimate estimateOf(const nav_msgs::Odometry& odometry) {
+  Estimate estimate;
+  estimate.stamp = stampOf(odometry.header.stamp);
+  auto& x = estimate.belief.mean;
+  auto& P = estimate.belief.covariance;
+  P.setIdentity();
+  x << odometry.pose.pose.position.y, odometry.pose.pose.position.x, 0, 0, headingOf(odometry.pose.pose.orientation), odometry.twist.twist.linear.x;
+  const auto& c = odometry.pose.covariance;
+  P(kNorth, kNorth) = c[7];
+  P(kEast, kEast) = c[0];
+  P(kNorth, kEast) = P(kEast, kNorth) = c[1];
+  P(kHeading, kHeading) = c[35];
+  P(kSpeed, kSpeed) = odometry.twist.covariance[0];
+  return estimate;
+}
+
+void addCurrent(const geometry_msgs::TwistWithCovarianceStamped& current, Gaussian<kStates>& belief) {
+  belief.mean(kCurrentNorth) = current.twist.twist.linear.y;
+  belief.mean(kCurrentEast) = current.twist.twist.linear.x;
+  const auto& c = current.twist.covariance;
+  belief.covariance(kCurrentNorth, kCurrentNorth) = c[7];
+  belief.covariance(kCurrentEast, kCurrentEast) = c[0];
+  belief.covariance(kCurrentNorth, kCurrentEast) = belief.covariance(kCurrentEast, kCurrentNorth) = c[1];
+}
+
+Audit auditOf(const sas_motion::FilterUpdate& update) {
+  Audit audit;
+  audit.stamp = stampOf(update.header.stamp);
+  for (int i = 0; i < kSensors; ++i)
+    if (update.sensor == sensorName(static_cast<Sensor>(i))) audit.sensor = static_cast<Sensor>(i);
+  audit.rows = static_cast<int>(std::min<std::size_t>(2, update.weights.size()));
+  for (int row = 0; row < audit.rows; ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    audit.weights(row) = update.weights[r];
+    if (r < update.innovation.size()) audit.innovation(row) = update.innovation[r];
+  }
+  if (!update.innovation_covariance.empty()) audit.S(0, 0) = update.innovation_covariance[0];
+  audit.nis = update.nis;
+  audit.iterations = static_cast<int>(update.iterations);
+  audit.verdict = static_cast<Verdict>(std::min<std::uint8_t>(update.verdict, 4));
+  return audit;
+}
+
+/// The estimators of a bag: those whose topic NAME/update is there.
+std::set<std::string> estimatorsIn(rosbag::View& view) {
+  std::set<std::string> names;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    const std::string topic = bareTopic(connection->topic);
+    if (connection->datatype == "sas_motion/FilterUpdate" && topic.size() > 7 && topic.substr(topic.size() - 7) == "/update")
+      names.insert(topic.substr(0, topic.size() - 7));
+  }
+  return names;
+}
+
+/// Truth as it comes, before its parts are joined by stamp.
+struct TruthParts {
+  std::map<Stamp, Geodetic> fixes;
+  std::map<Stamp, nav_msgs::Odometry> odometry;
+  std::map<Stamp, geometry_msgs::TwistWithCovarianceStamped> current;
+};
+
+std::vector<TruthPoint> join(const TruthParts& parts, const LocalFrame& frame) {
+  std::vector<TruthPoint> truth;
+  for (const auto& [stamp, point] : parts.fixes) {
+    TruthPoint t;
+    t.stamp = stamp;
+    auto& reference = t.reference;
+    reference.state.setZero();
+    const auto odometry = parts.odometry.find(stamp);
+    reference.heading_known = reference.speed_known = odometry != parts.odometry.end();
+    if (reference.heading_known) reference.state = estimateOf(odometry->second).belief.mean;
+    const auto current = parts.current.find(stamp);
+    reference.current_known = current != parts.current.end();
+    Gaussian<kStates> belief{reference.state, StateMatrix::Identity()};
+    if (reference.current_known) addCurrent(current->second, belief);
+    reference.state = belief.mean;
+    const Vector<3> enu = frame.position_enu(point);
+    reference.state(kNorth) = enu(1);
+    reference.state(kEast) = enu(0);
+    truth.push_back(t);
+  }
+  return truth;
+}
+
+void sortByStamp(RecordedEstimator& estimator) {
+  auto& estimates = estimator.estimates;
+  std::stable_sort(estimates.begin(), estimates.end(), [](const Estimate& a, const Estimate& b) { return a.stamp < b.stamp; });
+}
+
+}  // namespace
+
+Recording Recording::read(const std::string& file) {
+  const auto bag = openBag(file);
+  rosbag::View view(*bag);
+  Recording recording;
+  std::map<std::string, bool> settled;
+  for (const auto& name : estimatorsIn(view)) recording.estimators[name];
+  if (recording.estimators.empty())
+    throw std::runtime_error(fmt::format("{}: holds no estimates (no topic NAME/update); run reprocess on it or record the nodelets", file));
+  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+    for (const auto& [name, unused] : recording.estimators)
+      if (bareTopic(connection->topic) == name + "/settled") settled[name] = true;
+
+  TruthParts truth;
+  std::optional<LocalFrame> frame;
+  std::vector<std::pair<Stamp, Geodetic>> fixes;
+  std::map<std::string, std::map<Stamp, geometry_msgs::TwistWithCovarianceStamped>> currents;
+  for (const rosbag::MessageInstance& m : view) {
+    const std::string topic = bareTopic(m.getTopic());
+    const auto slash = topic.rfind('/');
+    const std::string name = slash == std::string::npos ? "" : topic.substr(0, slash), leaf = slash == std::string::npos ? topic : topic.substr(slash + 1);
+    if (const auto found = recording.estimators.find(name); found != recording.estimators.end()) {
+      const auto wanted = settled[name] ? "settled" : "odometry";
+      if (leaf == wanted) found->second.estimates.push_back(estimateOf(*m.instantiate<nav_msgs::Odometry>()));
+      if (leaf == "update") found->second.audits.push_back(auditOf(*m.instantiate<sas_motion::FilterUpdate>()));
+      if (leaf == "current") {
+        const auto current = m.instantiate<geometry_msgs::TwistWithCovarianceStamped>();
+        currents[name][stampOf(current->header.stamp)] = *current;
+      }
+    } else if (topic == "datum") {
+      if (!frame) frame.emplace(geodeticOf(*m.instantiate<sensor_msgs::NavSatFix>()));
+    } else if (topic == "truth/fix") {
+      const auto fix = m.instantiate<sensor_msgs::NavSatFix>();
+      if (hasPosition(*fix)) truth.fixes[stampOf(fix->header.stamp)] = geodeticOf(*fix);
+    } else if (topic == "truth/odometry") {
+      const auto odometry = m.instantiate<nav_msgs::Odometry>();
+      truth.odometry[stampOf(odometry->header.stamp)] = *odometry;
+    } else if (topic == "truth/current") {
+      const auto current = m.instantiate<geometry_msgs::TwistWithCovarianceStamped>();
+      truth.current[stampOf(current->header.stamp)] = *current;
+    } else if (topic == "truth/label") {
+      const auto label = m.instantiate<sas_motion::MeasurementLabel>();
+      recording.outlier[{stampOf(label->header.stamp), label->sensor}] = std::any_of(label->outlier.begin(), label->outlier.end(), [](bool b) { return b; });
+    } else if (m.getDataType() == "sensor_msgs/NavSatFix" && leaf == "fix") {
+      const auto fix = m.instantiate<sensor_msgs::NavSatFix>();
+      if (hasPosition(*fix)) fixes.emplace_back(stampOf(fix->header.stamp), geodeticOf(*fix));
+    }
+  }
+  if (truth.fixes.empty()) throw std::runtime_error(fmt::format("{}: no topic truth/fix; there is nothing to score against", file));
+  if (!frame) throw std::runtime_error(fmt::format("{}: no topic datum; the estimates' origin is unknown", file));
+
+  recording.truth_topic = truth.odometry.empty() ? "truth/fix" : "truth/odometry";
+  recording.truth = join(truth, *frame);
+  recording.begin = recording.truth.front().stamp;
+  recording.end = recording.truth.back().stamp;
+  for (const auto& [stamp, point] : fixes) {
+    const Vector<3> enu = frame->position_enu(point);
+    recording.fixes.push_back({stamp, {enu(1), enu(0)}});
+  }
+  for (auto& [name, estimator] : recording.estimators) {
+    sortByStamp(estimator);
+    for (auto& estimate : estimator.estimates)
+      if (const auto current = currents[name].find(estimate.stamp); current != currents[name].end()) addCurrent(current->second, estimate.belief);
+  }
+  return recording;
+}
+
+std::optional<Reference> Recording::truthAt(Stamp stamp) const {
+  const auto after = std::lower_bound(truth.begin(), truth.end(), stamp, [](const TruthPoint& t, Stamp s) { return t.stamp < s; });
+  if (after == truth.end()) return std::nullopt;
+  if (after->stamp == stamp) return after->reference;
+  if (after == truth.begin()) return std::nullopt;
+  const TruthPoint &a = *(after - 1), &b = *after;
+  const double gap = secondsBetween(a.stamp, b.stamp);
+  if (gap > kLongestGap) return std::nullopt;
+  Reference reference = a.reference;
+  reference.state += secondsBetween(a.stamp, stamp) / gap * Model::difference(b.reference.state, a.reference.state);
+  reference.state(kHeading) = wrapAngle(reference.state(kHeading));
+  return reference;
+}
+
+}  // namespace sas_motion::ros_side

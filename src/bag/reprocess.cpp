@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/bag/reprocess.hpp"
+
+#include <fmt/format.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "sas_motion/bag/bag_file.hpp"
+#include "sas_motion/bag/topics.hpp"
+#include "sas_motion/bag/tum.hpp"
+#include "sas_motion/ros/estimate_messages.hpp"
+#include "sas_motion/smoothers/factor_graph/estimators.hpp"
+
+namespace sas_motion::ros_side {
+namespace {
+
+double cpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+constexpr std::size_t kBatch = 256;  // measurements handed to an estimator at once
+
+/// One estimator on its way through a bag.
+class Lane {
+ public:
+  Lane(const std::string& name, const Settings& settings, BagOutput& bag, const std::string& tum_path)
+      : name_(name), settings_(settings), estimator_(towfish::makeAnyEstimator(name, settings.estimation)), bag_(bag), tum_(tum_path) {}
+
+  void process(const std::vector<Measurement>& measurements, const LocalFrame* frame) {
+    const double begin = cpuSeconds();
+    for (const auto& z : measurements) estimator_->process(z, output_);
+    report_.seconds += cpuSeconds() - begin;
+    report_.measurements += measurements.size();
+    drain(frame);
+  }
+
+  void finish(const LocalFrame* frame) {
+    const double begin = cpuSeconds();
+    estimator_->finish(output_);
+    report_.seconds += cpuSeconds() - begin;
+    drain(frame);
+    tum_.commit();
+  }
+
+  const std::string& name() const { return name_; }
+  const ReprocessReport::PerEstimator& report() const { return report_; }
+
+ private:
+  void drain(const LocalFrame* frame) {
+    for (const auto& estimate : output_.estimates) tum_.write(estimate);
+    for (const auto& audit : output_.audits) ++report_.verdicts[static_cast<std::size_t>(audit.verdict)];
+    report_.estimates += output_.estimates.size();
+    forEachMessage(name_, "odometry", output_, frame, settings_,
+                   [this](const std::string& topic, ros::Time time, const auto& message) { bag_.write(topic, time, message); });
+    output_.clear();
+  }
+
+  std::string name_;
+  const Settings& settings_;
+  std::unique_ptr<towfish::Estimator> estimator_;
+  BagOutput& bag_;
+  TumFile tum_;
+  towfish::Output output_;
+  ReprocessReport::PerEstimator report_;
+};
+
+}  // namespace
+
+ReprocessReport reprocess(const std::string& input, const std::string& folder, const std::vector<std::string>& estimators, const Settings& settings,
+                          const std::function<void(double)>& progress) {
+  const auto source = openBag(input);
+  rosbag::View view(*source);
+  const SensorTopics topics = findTopics(view, settings, input);
+  const std::filesystem::path out = std::filesystem::path(folder) / std::filesystem::path(input).filename();
+  if (std::filesystem::exists(out) && std::filesystem::equivalent(out, input))
+    throw std::runtime_error(fmt::format("{}: the output would replace the input; choose another folder with -o", input));
+
+  ReprocessReport report;
+  report.input = input;
+  report.output = out;
+  BagOutput bag(out);
+  tf2::BufferCore transforms;
+  std::vector<std::unique_ptr<Lane>> lanes;
+  for (const auto& name : estimators) lanes.push_back(std::make_unique<Lane>(name, settings, bag, fmt::format("{}.{}.tum", (out.parent_path() / out.stem()).string(), name)));
+
+  std::vector<Measurement> batch;
+  Ingest ingest(settings, transforms, [&](const Measurement& z) { batch.push_back(z); });
+  const auto frame = [&] { return ingest.frame() ? &*ingest.frame() : nullptr; };
+  const auto feed = [&] {
+    for (auto& lane : lanes) lane->process(batch, frame());
+    batch.clear();
+  };
+
+  const ros::Time begin = view.getBeginTime();
+  double done = 0;
+  bool datum_written = false;
+  for (const rosbag::MessageInstance& m : view) {
+    ++report.messages;
+    if (isEstimate(m.getTopic(), estimators)) continue;  // of an earlier run
+    bag.bag().write(m.getTopic(), m.getTime(), m, m.getConnectionHeader());
+    if (topics.transforms.count(m.getTopic())) {
+      if (const auto message = m.instantiate<tf2_msgs::TFMessage>())
+        for (const auto& T : message->transforms) transforms.setTransform(T, "bag", bareTopic(m.getTopic()) == "tf_static");
+    } else if (m.getTopic() == topics.fix) {
+      if (const auto message = m.instantiate<sensor_msgs::NavSatFix>()) ingest.take(*message);
+    } else if (m.getTopic() == topics.imu) {
+      if (const auto message = m.instantiate<sensor_msgs::Imu>()) ingest.take(*message);
+    } else if (m.getTopic() == topics.twist) {
+      if (const auto message = m.instantiate<geometry_msgs::TwistWithCovarianceStamped>()) ingest.take(*message);
+    }
+    if (!datum_written && ingest.frame()) {
+      bag.writeLatched("datum", m.getTime(), datumOf(*ingest.frame(), settings, m.getTime()));
+      datum_written = true;
+    }
+    if (batch.size() >= kBatch) feed();
+    if (report.messages % 1024 == 0) {
+      const double now = (m.getTime() - begin).toSec();
+      progress(now - done);
+      done = now;
+    }
+  }
+  ingest.finish();
+  feed();
+  for (auto& lane : lanes) lane->finish(frame());
+  report.duration = report.messages > 0 ? (view.getEndTime() - begin).toSec() : 0;
+  bag.commit();
+  progress(report.duration - done);
+  report.sensors = {{"fix", ingest.counts(Ingest::kFix)}, {"imu", ingest.counts(Ingest::kImu)}, {"twist", ingest.counts(Ingest::kTwist)}};
+  for (const auto& lane : lanes) report.estimators[lane->name()] = lane->report();
+  return report;
+}
+
+}  // namespace sas_motion::ros_side

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/bag/tum.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace sas_motion::ros_side {
+
+TumFile::TumFile(const std::string& path) : path_(path), file_(path), stream_(std::fopen(file_.temporary().c_str(), "wb")) {
+  if (!stream_) throw std::runtime_error(fmt::format("{}: could not be created", path));
+}
+
+TumFile::~TumFile() {
+  if (stream_) std::fclose(stream_);
+}
+
+void TumFile::write(const towfish::Estimate& estimate) {
+  const auto& x = estimate.belief.mean;
+  const double yaw = kPi / 2 - x(towfish::kHeading);
+  fmt::print(stream_, "{}.{:09d} {:.9f} {:.9f} 0 0 0 {:.12f} {:.12f}\n", estimate.stamp / kNanosecondsPerSecond, estimate.stamp % kNanosecondsPerSecond,
+             x(towfish::kEast), x(towfish::kNorth), std::sin(yaw / 2), std::cos(yaw / 2));
+}
+
+void TumFile::commit() {
+  const bool failed = std::ferror(stream_) != 0;
+  const bool not_closed = std::fclose(stream_) != 0;
+  stream_ = nullptr;
+  if (failed || not_closed) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", path_));
+  file_.commit();
+}
+
+}  // namespace sas_motion::ros_side

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// reprocess IN.bag...: estimators over recorded bags.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "main_guard.hpp"
+#include "progress.hpp"
+#include "sas_motion/bag/bag_file.hpp"
+#include "sas_motion/bag/reprocess.hpp"
+#include "sas_motion/smoothers/factor_graph/estimators.hpp"
+
+namespace {
+
+using namespace sas_motion;
+using namespace sas_motion::ros_side;
+using nlohmann::json;
+
+struct Options {
+  std::vector<std::string> bags;
+  std::string out = "reprocessed", config;
+  std::vector<std::string> estimators{"kf", "robust_kf"};
+  int jobs = 1;
+  bool resume = false;
+};
+
+/// What identifies a finished bag: the same input, configuration and estimators would give the same bytes again.
+json identity(const std::string& bag, const Options& options) {
+  std::string config;
+  if (!options.config.empty()) {
+    std::ifstream stream(options.config, std::ios::binary);
+    config.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a
+  for (const char c : config) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return {{"bytes", std::filesystem::file_size(bag)}, {"config", fmt::format("{:016x}", hash)}, {"estimators", options.estimators}};
+}
+
+json toJson(const ReprocessReport& report) {
+  json entry{{"messages", report.messages}, {"duration", report.duration}};
+  for (const auto& [name, counts] : report.sensors)
+    entry["sensors"][name] = {{"messages", counts.messages}, {"unknown_frame", counts.unknown_frame}, {"unusable", counts.unusable}, {"lost", counts.lost}};
+  for (const auto& [name, e] : report.estimators)
+    entry["results"][name] = {{"estimates", e.estimates}, {"accepted", e.verdicts[0]}, {"down_weighted", e.verdicts[1]}, {"rejected", e.verdicts[2]},
+                              {"stale", e.verdicts[3]}, {"invalid", e.verdicts[4]}};
+  return entry;
+}
+
+json costOf(const ReprocessReport& report) {
+  json cost;
+  for (const auto& [name, e] : report.estimators)
+    cost[name] = {{"seconds", e.seconds}, {"measurements", e.measurements}, {"duration", report.duration}};
+  return cost;
+}
+
+void printReport(const ReprocessReport& report) {
+  fmt::print("{} -> {}\n", report.input, report.output);
+  for (const auto& [name, counts] : report.sensors) {
+    fmt::print("  {:<14}{:>9} messages", name, counts.messages);
+    if (counts.unknown_frame) fmt::print(", {} of an unknown frame", counts.unknown_frame);
+    if (counts.unusable) fmt::print(", {} without a reading", counts.unusable);
+    if (counts.lost) fmt::print(", {} lost before", counts.lost);
+    fmt::print("\n");
+  }
+  for (const auto& [name, e] : report.estimators)
+    fmt::print("  {:<14}{:>9} estimates, {} accepted, {} down-weighted, {} rejected, {} stale, {} invalid\n", name, e.estimates, e.verdicts[0], e.verdicts[1],
+               e.verdicts[2], e.verdicts[3], e.verdicts[4]);
+}
+
+/// The manifest of a folder, rewritten whole after each bag.
+class Manifest {
+ public:
+  explicit Manifest(std::string path) : path_(std::move(path)) {
+    std::ifstream stream(path_);
+    if (stream) all_ = json::parse(stream, nullptr, false);
+    if (!all_.is_object()) all_ = json::object();
+    all_["schema"] = "sas_motion/manifest/1";
+  }
+  bool has(const std::string& bag, const json& identity) const {
+    return all_.contains("bags") && all_["bags"].contains(bag) && all_["bags"][bag].value("identity", json()) == identity;
+  }
+  void add(const std::string& bag, json entry) {
+    all_["bags"][bag] = std::move(entry);
+    writeFile(path_, all_.dump(2) + "\n");
+  }
+
+ private:
+  std::string path_;
+  json all_;
+};
+
+void run(const Options& options) {
+  const Settings settings = Settings::fromFile(options.config);
+  for (const auto& name : options.estimators)
+    if (!towfish::makeAnyEstimator(name, settings.estimation))
+      throw std::runtime_error(fmt::format("--estimators: '{}' is no estimator; known are {}", name, fmt::join(towfish::estimatorNames(), ", ")));
+  double duration = 0;
+  for (const auto& bag : options.bags) {
+    const auto source = openBag(bag);
+    rosbag::View view(*source);
+    if (view.size() > 0) duration += (view.getEndTime() - view.getBeginTime()).toSec();
+  }
+  makeFolder(options.out);
+  Manifest manifest(options.out + "/manifest.json");
+  Progress progress("reprocess", duration, duration);
+  std::atomic<std::size_t> next{0};
+  std::vector<std::string> failures;
+  std::mutex mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < options.bags.size(); i = next++) {
+      const std::string& bag = options.bags[i];
+      const std::string name = std::filesystem::path(bag).filename();
+      try {
+        const json id = identity(bag, options);
+        {
+          const std::lock_guard<std::mutex> lock(mutex);
+          if (options.resume && manifest.has(name, id) && std::filesystem::exists(options.out + "/" + name)) continue;
+        }
+        const auto report = reprocess(bag, options.out, options.estimators, settings, [&](double seconds) { progress.advance(seconds); });
+        json entry = toJson(report);
+        entry["identity"] = id;
+        const std::lock_guard<std::mutex> lock(mutex);
+        writeFile(options.out + "/" + std::filesystem::path(name).stem().string() + ".cost.json", costOf(report).dump(2) + "\n");
+        manifest.add(name, entry);
+        printReport(report);
+      } catch (const std::exception& error) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        failures.emplace_back(error.what());
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < options.jobs; ++i) threads.emplace_back(work);
+  for (auto& thread : threads) thread.join();
+  if (!failures.empty()) throw std::runtime_error(fmt::format("{}", fmt::join(failures, "\n")));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Runs estimators over recorded bags: each IN.bag to OUT_DIR/IN.bag with estimates and audit, a TUM file an estimator, manifest.json.", "reprocess");
+  app.add_option("BAG", options.bags, "bags to read")->required();
+  app.add_option("-o,--output", options.out, "folder for the results (default: reprocessed)");
+  app.add_option("--estimators", options.estimators, "names, comma-separated (default: kf,robust_kf)")->delimiter(',');
+  app.add_option("--config", options.config, "configuration (YAML; default: built in)");
+  app.add_option("-j,--jobs", options.jobs, "bags at once (default 1)")->check(CLI::Range(1, 1024));
+  app.add_flag("--resume", options.resume, "skip bags that the manifest says are done with the same input, configuration and estimators");
+  return runTool(app, argc, argv, [&] { run(options); });
+}

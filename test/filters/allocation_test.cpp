@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Predict and update use no heap. Every allocation of the process goes through the malloc below.
+#include <cstdlib>
+#include <iostream>
+
+#include "sas_motion/filters/gated_kalman_filter.hpp"
+#include "sas_motion/filters/mixture_kalman_filter.hpp"
+#include "sas_motion/filters/robust_kalman_filter.hpp"
+#include "sas_motion/filters/student_t_kalman_filter.hpp"
+#include "sas_motion/models/towfish.hpp"
+#include "support.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define SAS_MOTION_CANNOT_COUNT  // a sanitizer has its own malloc
+#endif
+
+namespace {
+thread_local long allocations = 0;
+}
+
+#ifndef SAS_MOTION_CANNOT_COUNT
+extern "C" void* __libc_malloc(std::size_t);
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+#endif
+
+namespace sas_motion {
+namespace {
+
+using towfish::kStates;
+
+template <class Filter>
+void expectNoAllocation(const char* name, const Filter& filter) {
+  const towfish::Model model{towfish::MotionParameters()};
+  Random random = testing::announced(71);
+  typename Filter::Belief belief{testing::randomBelief<kStates>(random)};
+  auto two = testing::randomMeasurement<kStates, 2>(random);
+  auto one = testing::randomMeasurement<kStates, 1>(random);
+  const long before = allocations;
+  for (int i = 0; i < 20; ++i) {
+    belief = filter.predict(belief, model.transition(gaussian(belief).mean, {0.01}, 0.1));
+    two.innovation(0) = i % 5 == 0 ? 30 : 0.3;  // outliers take other paths
+    belief = filter.update(belief, two).belief;
+    one.innovation(0) = i % 7 == 0 ? -30 : 0.2;
+    belief = filter.update(belief, one).belief;
+  }
+  EXPECT_EQ(allocations - before, 0) << name;
+  EXPECT_TRUE(gaussian(belief).mean.allFinite());
+}
+
+TEST(Allocation, PredictAndUpdateUseNoHeap) {
+#ifdef SAS_MOTION_CANNOT_COUNT
+  GTEST_SKIP() << "allocations cannot be counted here";
+#endif
+  const long before = allocations;
+  const std::vector<double> something(100, 1.0);
+  ASSERT_GT(allocations, before) << "the counter does not count";
+  ASSERT_EQ(something.size(), 100u);
+
+  expectNoAllocation("kf", KalmanFilter<kStates>());
+  expectNoAllocation("gated_kf", GatedKalmanFilter<kStates>({}));
+  expectNoAllocation("mixture_kf", MixtureKalmanFilter<kStates>({}));
+  expectNoAllocation("student_t_kf", StudentTKalmanFilter<kStates>({}));
+  for (const auto& name : lossNames())
+    for (const bool process : {false, true}) {
+      RobustKalmanFilter<kStates>::Options options;
+      options.loss = Loss(lossFromName(name));
+      options.robustify_process = process;
+      expectNoAllocation(name.c_str(), RobustKalmanFilter<kStates>(options));
+    }
+}
+
+}  // namespace
+}  // namespace sas_motion
