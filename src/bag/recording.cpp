@@ -140,7 +140,7 @@ Recording Recording::read(const std::string& file) {
       const auto wanted = settled[name] ? "settled" : "odometry";
       if (leaf == wanted) found->second.estimates.push_back(estimateOf(*m.instantiate<nav_msgs::Odometry>()));
       if (leaf == "update") found->second.audits.push_back(auditOf(*m.instantiate<sas_motion::FilterUpdate>()));
-      if (leaf == "current") {
+      if (leaf == (settled[name] ? "settled_current" : "current")) {
         const auto current = m.instantiate<geometry_msgs::TwistWithCovarianceStamped>();
         currents[name][stampOf(current->header.stamp)] = *current;
       }

@@ -37,7 +37,7 @@ struct CurrentStep {
     position_velocity = variance * tau * lost * lost;
     // sigma^2 tau^2 (2u - 3 + 4 e^{-u} - e^{-2u}), by its series where the terms cancel
     const double u3 = u * u * u;
-    const double bracket = u < 1e-2 ? u3 * (2.0 / 3 - u / 2 + 7 * u * u / 30) : 2 * u - 2 * lost - lost * lost;
+    const double bracket = u < 1e-3 ? u3 * (2.0 / 3 - u / 2 + 7 * u * u / 30) : 2 * u - 2 * lost - lost * lost;
     position_position = variance * tau * tau * bracket;
   }
   double decay, reach, velocity_velocity, position_velocity, position_position;

@@ -67,6 +67,7 @@ void FilterTimeline<Filter>::process(const Measurement& z, Output& output) {
 
 template <class Filter>
 bool FilterTimeline<Filter>::start() {
+  if (entries_.empty()) return false;
   const Stamp first = entries_.front().z.stamp;
   const Stamp end = first + stampFromSeconds(config_.start.window);
   if (entries_.back().z.stamp < end) return false;
@@ -117,25 +118,35 @@ void FilterTimeline<Filter>::fuse(const Moment& from, Entry& entry) const {
 
 template <class Filter>
 void FilterTimeline<Filter>::settle(Stamp until, Output& output) {
+  const Stamp window = stampFromSeconds(config_.start.window);
+  while (!started() && !entries_.empty() && entries_.front().z.stamp + window <= until) {  // its whole window is here, and does not start
+    giveUpFront(output);
+    if (start()) replay(0);
+  }
+  if (!started() || (!start_settled_ && until < start_stamp_)) return;  // a late measurement can still change the start
   while (!entries_.empty() && entries_.front().z.stamp <= until) {
     const Entry& entry = entries_.front();
     settled_ = entry.z.stamp;
-    if (started()) {
-      start_settled_ = true;
-      const bool last_of_stamp = entries_.size() == 1 || entries_[1].z.stamp != entry.z.stamp;
-      if (entry.audit.rows > 0) output.audits.push_back(entry.audit);
-      if (last_of_stamp) output.estimates.push_back({entry.z.stamp, gaussian(entry.after.belief)});
-      anchor_ = entry.after;
-    } else {
-      output.audits.push_back(refusal(entry.z, Verdict::Stale, "before the first position and heading"));
-    }
+    start_settled_ = true;
+    const bool last_of_stamp = entries_.size() == 1 || entries_[1].z.stamp != entry.z.stamp;
+    if (entry.audit.rows > 0) output.audits.push_back(entry.audit);
+    if (last_of_stamp) output.estimates.push_back({entry.z.stamp, gaussian(entry.after.belief)});
+    anchor_ = entry.after;
     entries_.pop_front();
   }
 }
 
 template <class Filter>
+void FilterTimeline<Filter>::giveUpFront(Output& output) {
+  settled_ = entries_.front().z.stamp;
+  output.audits.push_back(refusal(entries_.front().z, Verdict::Stale, "before the first position and heading"));
+  entries_.pop_front();
+}
+
+template <class Filter>
 void FilterTimeline<Filter>::finish(Output& output) {
   if (!entries_.empty()) settle(entries_.back().z.stamp, output);
+  while (!entries_.empty()) giveUpFront(output);  // it never started
 }
 
 template <class Filter>

@@ -41,6 +41,7 @@ class FilterTimeline final : public Estimator {
   Moment predicted(const Moment& from, Stamp stamp) const;
   void fuse(const Moment& from, Entry& entry) const;
   void settle(Stamp until, Output& output);
+  void giveUpFront(Output& output);
   const Moment& momentBefore(std::size_t index) const { return index == 0 ? *anchor_ : entries_[index - 1].after; }
 
   Filter filter_;
