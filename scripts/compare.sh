@@ -8,6 +8,7 @@ set -euo pipefail
 out=${1:?usage: compare.sh OUT_DIR [SCENARIO.yaml] [RATE]}
 fail() { echo "compare: $*" >&2; exit 1; }
 package=$(rospack find sas_motion 2>/dev/null) || fail "ROS does not find sas_motion; source build/devel/setup.bash first"
+tools=$(catkin_find --first-only --libexec sas_motion)
 scenario=${2:-$package/config/scenarios/survey_outliers_10.yaml}
 rate=${3:-20}
 mkdir -p "$out" && out=$(cd "$out" && pwd)
@@ -17,7 +18,7 @@ export ROS_IP=127.0.0.1 ROS_MASTER_URI="http://127.0.0.1:$port" ROS_HOME="$out/r
 unset ROS_HOSTNAME
 
 echo "compare: simulating $(basename "$scenario")"
-rosrun sas_motion simulate "$scenario" -o "$out/simulated.bag"
+"$tools/simulate" "$scenario" -o "$out/simulated.bag"
 echo "compare: playing it through the filter nodelet and the smoother nodelet at $rate times real time"
 rm -f "$out/live.bag" "$out/live.bag.active"
 roslaunch --port "$port" sas_motion compare.launch bag:="$out/simulated.bag" output:="$out/live.bag" rate:="$rate" >"$out/launch.log" 2>&1 ||
@@ -25,4 +26,4 @@ roslaunch --port "$port" sas_motion compare.launch bag:="$out/simulated.bag" out
 [ -s "$out/live.bag" ] || { tail -n 20 "$out/launch.log" >&2; fail "nothing was recorded; the launch's log is $out/launch.log"; }
 grep -h 'play_session:' "$out/launch.log" | sed 's/^play_session/compare/' || true
 echo "compare: evaluating against truth"
-rosrun sas_motion evaluate.py "$out/live.bag" -o "$out"
+"$tools/evaluate.py" "$out/live.bag" -o "$out"

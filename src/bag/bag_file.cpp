@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/bag/bag_file.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
-#include <stdexcept>
 
 namespace sas_motion::ros_side {
 
@@ -24,21 +21,27 @@ std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
   return bag;
 }
 
-BagOutput::BagOutput(const std::string& path) : path_(path), file_(path) {
-  try {
-    bag_.open(file_.temporary(), rosbag::bagmode::Write);
-  } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(fmt::format("{}: could not be written: {}", path, error.what()));
-  }
+BagOutput::BagOutput(const std::string& path) : path_(path), file_(path), bag_(std::make_unique<rosbag::Bag>()) {
+  guarded([&] { bag_->open(file_.temporary(), rosbag::bagmode::Write); });
+}
+
+void BagOutput::copy(const rosbag::MessageInstance& message) {
+  message.size();  // reads it: a failure to read is none to write
+  guarded([&] { bag_->write(message.getTopic(), message.getTime(), message, message.getConnectionHeader()); });
+}
+
+void BagOutput::close() {
+  guarded([&] { bag_->close(); });
 }
 
 void BagOutput::commit() {
-  try {
-    bag_.close();
-  } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(fmt::format("{}: could not be written: {}", path_, error.what()));
-  }
+  close();
   file_.commit();
+}
+
+void BagOutput::abandon(const std::string& reason) {
+  static_cast<void>(bag_.release());  // its destructor would write again, and throw, which ends the process
+  throw std::runtime_error(fmt::format("{}: could not be written ({}); is the disk full?", path_, reason));
 }
 
 }  // namespace sas_motion::ros_side

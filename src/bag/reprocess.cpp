@@ -44,9 +44,12 @@ class Lane {
     const double begin = cpuSeconds();
     estimator_->finish(output_);
     report_.seconds += cpuSeconds() - begin;
+    report_.failure = estimator_->failure();
     drain(frame);
-    tum_.commit();
+    tum_.close();
   }
+
+  void commit() { tum_.commit(); }
 
   const std::string& name() const { return name_; }
   const ReprocessReport::PerEstimator& report() const { return report_; }
@@ -103,7 +106,7 @@ ReprocessReport reprocess(const std::string& input, const std::string& folder, c
   for (const rosbag::MessageInstance& m : view) {
     ++report.messages;
     if (isEstimate(m.getTopic(), estimators)) continue;  // of an earlier run
-    bag.bag().write(m.getTopic(), m.getTime(), m, m.getConnectionHeader());
+    bag.copy(m);
     if (topics.transforms.count(m.getTopic())) {
       if (const auto message = m.instantiate<tf2_msgs::TFMessage>())
         for (const auto& T : message->transforms) transforms.setTransform(T, "bag", bareTopic(m.getTopic()) == "tf_static");
@@ -130,6 +133,7 @@ ReprocessReport reprocess(const std::string& input, const std::string& folder, c
   for (auto& lane : lanes) lane->finish(frame());
   report.duration = report.messages > 0 ? (view.getEndTime() - begin).toSec() : 0;
   bag.commit();
+  for (auto& lane : lanes) lane->commit();
   progress(report.duration - done);
   report.sensors = {{"fix", ingest.counts(Ingest::kFix)}, {"imu", ingest.counts(Ingest::kImu)}, {"twist", ingest.counts(Ingest::kTwist)}};
   for (const auto& lane : lanes) report.estimators[lane->name()] = lane->report();

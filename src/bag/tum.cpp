@@ -20,15 +20,20 @@ TumFile::~TumFile() {
 void TumFile::write(const towfish::Estimate& estimate) {
   const auto& x = estimate.belief.mean;
   const double yaw = kPi / 2 - x(towfish::kHeading);
-  fmt::print(stream_, "{}.{:09d} {:.9f} {:.9f} 0 0 0 {:.12f} {:.12f}\n", estimate.stamp / kNanosecondsPerSecond, estimate.stamp % kNanosecondsPerSecond,
-             x(towfish::kEast), x(towfish::kNorth), std::sin(yaw / 2), std::cos(yaw / 2));
+  const std::string line = fmt::format("{}.{:09d} {:.9f} {:.9f} 0 0 0 {:.12f} {:.12f}\n", estimate.stamp / kNanosecondsPerSecond, estimate.stamp % kNanosecondsPerSecond,
+                                       x(towfish::kEast), x(towfish::kNorth), std::sin(yaw / 2), std::cos(yaw / 2));
+  std::fwrite(line.data(), 1, line.size(), stream_);  // commit() looks for failures
 }
 
-void TumFile::commit() {
+void TumFile::close() {
   const bool failed = std::ferror(stream_) != 0;
   const bool not_closed = std::fclose(stream_) != 0;
   stream_ = nullptr;
   if (failed || not_closed) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", path_));
+}
+
+void TumFile::commit() {
+  if (stream_) close();
   file_.commit();
 }
 

@@ -67,6 +67,7 @@ void readFour(YamlSection& yaml, const std::string& key, std::array<double, 4>& 
 void readMixture(YamlSection yaml, MixtureKalmanFilter<kStates>::Options& options) {
   readFour(yaml, "scales", options.scales, kTiny);
   readFour(yaml, "probabilities", options.probabilities, 0);
+  if (*std::max_element(options.probabilities.begin(), options.probabilities.end()) == 0) yaml.fail("probabilities", "must not all be 0");
   yaml.finish();
 }
 
@@ -88,7 +89,6 @@ void readEstimators(YamlSection yaml, Config& config) {
   student.finish();
   auto gated = yaml.section("gated_kf");
   gated.number("probability", config.gated_kf.probability, {0.5, 0.999999});
-  gated.integer("reset_after", config.gated_kf.reset_after, 1, 1'000'000);
   gated.finish();
   readMixture(yaml.section("mixture_kf"), config.mixture_kf);
   readSmoother(yaml.section("rts"), config.rts);
@@ -141,6 +141,7 @@ void readConfig(YamlSection& yaml, Config& config) {
   start.number("speed_sigma", config.start.speed_sigma, {kTiny, 100});
   start.finish();
   yaml.number("lag", config.lag, {0, 3600});
+  yaml.number("reset_after", config.reset_after, {kTiny, 1e6});
   yaml.number("input_hold", config.input_hold, {0, 3600});
   yaml.angle("turn_rate_limit_deg", config.turn_rate_limit, {kTiny, 3600});
   if (config.start.window > config.lag)

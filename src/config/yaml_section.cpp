@@ -16,7 +16,7 @@ namespace {
 YAML::Node parsed(const std::string& name, const std::function<YAML::Node()>& load) {
   try {
     return load();
-  } catch (const YAML::Exception& error) {
+  } catch (const std::exception& error) {  // of YAML, or of the stream where the file is a folder
     throw ConfigError(fmt::format("{}: not readable as YAML: {}", name, error.what()));
   }
 }
@@ -106,7 +106,10 @@ void YamlSection::texts(const std::string& key, std::vector<std::string>& values
   if (!node.IsDefined()) return;
   if (!node.IsSequence()) fail(key, "must be a list");
   values.clear();
-  for (const auto& item : node) values.push_back(item.as<std::string>());
+  for (const auto& item : node) {
+    if (!item.IsScalar()) fail(key, "must be a list of texts");
+    values.push_back(item.Scalar());
+  }
 }
 
 YamlSection YamlSection::section(const std::string& key) { return {take(key), file_, pathOf(key)}; }
@@ -123,7 +126,10 @@ std::vector<YamlSection> YamlSection::list(const std::string& key) {
 std::vector<std::string> YamlSection::keys() const {
   std::vector<std::string> names;
   if (node_.IsMap())
-    for (const auto& entry : node_) names.push_back(entry.first.as<std::string>());
+    for (const auto& entry : node_) {
+      if (!entry.first.IsScalar()) throw ConfigError(fmt::format("{}: {} has a key that is no word", file_, path_.empty() ? "the file" : path_));
+      names.push_back(entry.first.Scalar());
+    }
   return names;
 }
 

@@ -88,6 +88,7 @@ Campaign Campaign::fromFile(const std::string& file) {
   } else {
     auto section = YamlSection::fromFile(folder / config);
     readConfig(section, campaign.config);
+    for (const char* key : {"topics", "frames", "datum"}) section.ignore(key);  // of the nodelets
     section.finish();
   }
   auto overrides = yaml.section("settings");

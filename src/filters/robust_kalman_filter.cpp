@@ -114,7 +114,7 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateBothWeights(const Belief& pr
     for (int i = 0; i < N; ++i) spread(i) = 1 / std::max(loss.weight(process_residual(i)), Whitening<M>::kLeastWeight);
     result.weights = weightsOf(loss, whitened);
     const Matrix<M> R = whitening.weighted(result.weights);
-    const Gaussian<N> weighted_prior{prior.mean, *root * spread.asDiagonal() * *root};  // Pw = P^{1/2} W1^{-1} P^{1/2} (19d)
+    const Gaussian<N> weighted_prior{prior.mean, *root * spread.asDiagonal() * *root};  // Pw = P^{1/2} W1^{-1} P^{1/2} (19)
     const Projection<N, M> projection(weighted_prior.covariance, z.H);
     const Innovation<M> Sw(projection.HPHt + R);
     const Vector<M> solved = Sw.solve(z.innovation);

@@ -36,7 +36,9 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
     return result;
   }
   const double nu = options_.degrees_of_freedom;
-  Matrix<M> R = z.R;
+  const auto weightsFor = [&](const Vector<M>& squared) -> Vector<M> { return (nu + 1) / (nu + squared.cwiseQuotient(variance).array()); };
+  result.weights = weightsFor(z.innovation.cwiseAbs2() + T.diagonal());  // at the prediction
+  Matrix<M> R = variance.cwiseQuotient(result.weights).asDiagonal();
   result.converged = false;
   for (result.iterations = 0; result.iterations < options_.max_iterations && !result.converged;) {
     ++result.iterations;
@@ -44,7 +46,7 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
     const Vector<M> residual = z.innovation - T * S.solve(z.innovation);
     const Vector<M> posterior_variance = T.diagonal() - (T * S.solve(T)).diagonal();
     const Vector<M> squared = residual.cwiseAbs2() + posterior_variance;
-    const Vector<M> weights = (nu + 1) / (nu + squared.cwiseQuotient(variance).array());
+    const Vector<M> weights = weightsFor(squared);
     result.converged = (weights - result.weights).cwiseAbs().maxCoeff() < options_.tolerance;
     result.weights = weights;
     R = variance.cwiseQuotient(weights).asDiagonal();

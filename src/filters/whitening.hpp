@@ -10,7 +10,7 @@
 
 namespace sas_motion {
 
-/// Residuals in units of their noise, by the Cholesky root R = L L^T, and the noise that weights turn R into: L W^{-1} L^T (19c).
+/// Residuals in units of their noise, by the Cholesky root R = L L^T, and the noise that weights turn R into: L W^{-1} L^T (19).
 template <int M>
 class Whitening {
  public:

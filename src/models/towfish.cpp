@@ -54,14 +54,22 @@ void addRandomWalk(StateMatrix& Q, int state, double q, double north, double eas
   Q(kEast, kEast) += east * east * end;
 }
 
-LinearMeasurement<kStates, 1> scalar(State state, double innovation, double variance, Sensor sensor) {
-  LinearMeasurement<kStates, 1> z;
-  z.innovation(0) = innovation;
-  z.H.setZero();
-  z.H(0, state) = 1;
-  z.R(0, 0) = variance;
-  z.source = static_cast<int>(sensor);
-  return z;
+/// What all sensors' measurements have in common.
+template <int M>
+LinearMeasurement<kStates, M> linearized(const Measurement& z) {
+  LinearMeasurement<kStates, M> result;
+  result.H.setZero();
+  result.R = z.variance.head<M>().asDiagonal();
+  result.time = 1e-9 * static_cast<double>(z.stamp);
+  result.source = static_cast<int>(z.sensor);
+  return result;
+}
+
+LinearMeasurement<kStates, 1> scalar(const Measurement& z, State state, double innovation) {
+  auto result = linearized<1>(z);
+  result.innovation(0) = innovation;
+  result.H(0, state) = 1;
+  return result;
 }
 
 }  // namespace
@@ -150,24 +158,21 @@ Vector<2> Model::expected(const Measurement& z, const StateVector& x) {
 }
 
 LinearMeasurement<kStates, 2> Model::position(const Measurement& z, const StateVector& x) const {
-  LinearMeasurement<kStates, 2> result;
+  auto result = linearized<2>(z);
   const Vector<2> h = expected(z, x);
   result.innovation = z.value - h;
-  result.H.setZero();
   result.H(0, kNorth) = result.H(1, kEast) = 1;
   result.H(0, kHeading) = x(kEast) - h(1);  // d(arm turned by theta)/d(theta)
   result.H(1, kHeading) = h(0) - x(kNorth);
-  result.R = z.variance.asDiagonal();
-  result.source = static_cast<int>(z.sensor);
   return result;
 }
 
 LinearMeasurement<kStates, 1> Model::heading(const Measurement& z, const StateVector& x) const {
-  return scalar(kHeading, wrapAngle(z.value(0) - x(kHeading)), z.variance(0), z.sensor);
+  return scalar(z, kHeading, wrapAngle(z.value(0) - x(kHeading)));
 }
 
 LinearMeasurement<kStates, 1> Model::speed(const Measurement& z, const StateVector& x) const {
-  return scalar(kSpeed, z.value(0) - x(kSpeed), z.variance(0), z.sensor);
+  return scalar(z, kSpeed, z.value(0) - x(kSpeed));
 }
 
 }  // namespace sas_motion::towfish

@@ -6,6 +6,7 @@
 
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
+#include "sas_motion/filters/reacquiring_filter.hpp"
 #include "sas_motion/models/towfish_start.hpp"
 
 namespace sas_motion::towfish {
@@ -173,9 +174,9 @@ void FilterTimeline<Filter>::reset() {
 }
 
 template class FilterTimeline<KalmanFilter<kStates>>;
-template class FilterTimeline<GatedKalmanFilter<kStates>>;
-template class FilterTimeline<MixtureKalmanFilter<kStates>>;
-template class FilterTimeline<RobustKalmanFilter<kStates>>;
-template class FilterTimeline<StudentTKalmanFilter<kStates>>;
+template class FilterTimeline<ReacquiringFilter<GatedKalmanFilter<kStates>, kStates>>;
+template class FilterTimeline<ReacquiringFilter<MixtureKalmanFilter<kStates>, kStates>>;
+template class FilterTimeline<ReacquiringFilter<RobustKalmanFilter<kStates>, kStates>>;
+template class FilterTimeline<ReacquiringFilter<StudentTKalmanFilter<kStates>, kStates>>;
 
 }  // namespace sas_motion::towfish

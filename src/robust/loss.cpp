@@ -20,9 +20,9 @@ double Loss::rho(double residual) const {
   switch (kind_) {
     case LossKind::L2: return 0.5 * r2;
     case LossKind::Huber: return r <= c ? 0.5 * r2 : c * r - 0.5 * c2;
-    case LossKind::PseudoHuber: return c2 * (std::sqrt(1 + u) - 1);
+    case LossKind::PseudoHuber: return r2 / (1 + std::sqrt(1 + u));
     case LossKind::Cauchy: return 0.5 * c2 * std::log1p(u);
-    case LossKind::Tukey: return r <= c ? c2 / 6 * (1 - std::pow(1 - u, 3)) : c2 / 6;
+    case LossKind::Tukey: return r <= c ? r2 * (0.5 - u / 2 + u * u / 6) : c2 / 6;
     case LossKind::GemanMcClure: return 0.5 * r2 / (1 + u);
     case LossKind::Welsch: return -0.5 * c2 * std::expm1(-u);
     case LossKind::Dcs: return r2 <= c ? 0.5 * r2 : c * (1.5 * r2 - 0.5 * c) / (c + r2);  // (Phi = c) [Agarwal2013, MacTavish2015]

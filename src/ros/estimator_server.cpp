@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sas_motion/ros/estimate_messages.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
@@ -11,6 +13,8 @@ namespace sas_motion::ros_side {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;  // messages kept for a slow callback or subscriber
+constexpr std::size_t kBurst = 20;      // messages published at once before a pause: rosbag record keeps 100 of a topic for its own threads
+constexpr double kPause = 0.01;         // [s]
 
 geometry_msgs::TransformStamped mapToOdom(const Settings& settings, ros::Time stamp) {
   geometry_msgs::TransformStamped T;
@@ -21,18 +25,29 @@ geometry_msgs::TransformStamped mapToOdom(const Settings& settings, ros::Time st
   return T;
 }
 
+/// Replaces `value` by a private parameter where there is one.
+template <class T>
+void readParameter(const ros::NodeHandle& own, const std::string& key, T& value) {
+  if (own.hasParam(key) && !own.getParam(key, value)) throw ConfigError(fmt::format("~{} is of the wrong type", key));
+}
+
 }  // namespace
 
 EstimatorServer::EstimatorServer(ros::NodeHandle node, ros::NodeHandle own, const std::vector<std::string>& default_estimators)
-    : node_(node), own_(own), settings_(Settings::fromFile(own.param<std::string>("config", ""))) {
-  settings_.fix_topic = own_.param("fix_topic", settings_.fix_topic);
-  settings_.imu_topic = own_.param("imu_topic", settings_.imu_topic);
-  settings_.twist_topic = own_.param("twist_topic", settings_.twist_topic);
-  publish_tf_ = own_.param("publish_tf", publish_tf_);
-  idle_timeout_ = own_.param("idle_timeout", idle_timeout_);
-  const bool with_batch = own_.param("batch", false);
+    : node_(node), own_(own) {
+  std::string config;
+  bool with_batch = false;
+  auto names = default_estimators;
+  readParameter(own_, "config", config);
+  settings_ = Settings::fromFile(config);
+  readParameter(own_, "fix_topic", settings_.fix_topic);
+  readParameter(own_, "imu_topic", settings_.imu_topic);
+  readParameter(own_, "twist_topic", settings_.twist_topic);
+  readParameter(own_, "publish_tf", publish_tf_);
+  readParameter(own_, "idle_timeout", idle_timeout_);
+  readParameter(own_, "batch", with_batch);
+  readParameter(own_, "estimators", names);
 
-  const auto names = own_.param("estimators", default_estimators);
   const auto lane = [&](const std::string& name) {
     Lane fresh;
     fresh.name = name;
@@ -45,7 +60,10 @@ EstimatorServer::EstimatorServer(ros::NodeHandle node, ros::NodeHandle own, cons
     fresh.publishers["update"] = node_.advertise<sas_motion::FilterUpdate>(name + "/update", kQueue);
     return fresh;
   };
-  for (const auto& name : names) lanes_.push_back(lane(name));
+  for (const auto& name : names) {
+    if (std::count(names.begin(), names.end(), name) > 1) throw ConfigError(fmt::format("~estimators: '{}' is there twice; name each once", name));
+    lanes_.push_back(lane(name));
+  }
   if (with_batch) batch_ = std::make_unique<Lane>(lane("batch"));
 
   datum_publisher_ = node_.advertise<sensor_msgs::NavSatFix>("datum", 1, true);
@@ -61,7 +79,7 @@ EstimatorServer::EstimatorServer(ros::NodeHandle node, ros::NodeHandle own, cons
   services_.push_back(own_.advertiseService("get_state_at", &EstimatorServer::onGetStateAt, this));
   if (batch_) services_.push_back(own_.advertiseService("solve_batch", &EstimatorServer::onSolveBatch, this));
 
-  updater_ = std::make_unique<diagnostic_updater::Updater>(node_, own_);
+  updater_ = std::make_unique<diagnostic_updater::Updater>(node_, own_, own_.getNamespace());  // two nodelets of one manager are told apart
   updater_->setHardwareID("sas_motion");
   updater_->add("estimators", this, &EstimatorServer::diagnose);
   diagnostic_timer_ = node_.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) { updater_->force_update(); });
@@ -101,13 +119,19 @@ void EstimatorServer::publishNow(Lane& lane) {
 }
 
 void EstimatorServer::publishSettled(Lane& lane) {
+  std::size_t published = 0;
+  const auto pace = [&published] {  // a whole recording at once would overrun the subscribers' queues
+    if (++published % kBurst == 0) ros::WallDuration(kPause).sleep();
+  };
   for (const auto& audit : output_.audits) {
     ++lane.verdicts[static_cast<std::size_t>(audit.verdict)];
     lane.publishers["update"].publish(updateOf(audit));
+    pace();
   }
   for (const auto& estimate : output_.estimates) {
     lane.publishers["settled"].publish(odometryOf(estimate, settings_));
     lane.publishers["settled_current"].publish(currentOf(estimate, settings_));
+    pace();
   }
   output_.clear();
 }
@@ -139,6 +163,8 @@ void EstimatorServer::settleAll() {
   for (auto& lane : lanes_) {
     lane.estimator->finish(output_);
     publishSettled(lane);
+    const auto newest = lane.estimator->current();
+    if (newest && newest->stamp > lane.published) publishNow(lane);  // a smoother runs behind its data until they pause
   }
 }
 
@@ -149,6 +175,7 @@ void EstimatorServer::startAnew() {
   for (auto& lane : lanes_) {
     lane.estimator->reset();
     lane.published = 0;
+    lane.verdicts.fill(0);
   }
   if (batch_) batch_->estimator->reset();
   datum_published_ = false;
@@ -184,7 +211,7 @@ bool EstimatorServer::onGetStateAt(GetStateAt::Request& request, GetStateAt::Res
     if (!request.estimator.empty() && request.estimator != lane.name) continue;
     const auto estimate = lane.estimator->at(stampOf(request.stamp));
     response.success = estimate.has_value();
-    response.message = estimate ? "" : "the stamp is older than the lag, or the estimator has not started";
+    response.message = estimate ? "" : "the stamp is older than the lag, or the estimator has not started or keeps no history";
     if (estimate) {
       response.odometry = odometryOf(*estimate, settings_);
       response.current = currentOf(*estimate, settings_);
@@ -202,7 +229,7 @@ bool EstimatorServer::onSolveBatch(std_srvs::Trigger::Request&, std_srvs::Trigge
   publishSettled(*batch_);
   response.success = states > 0;
   response.message = states > 0 ? fmt::format("{} states in {:.2f} s", states, (ros::WallTime::now() - begin).toSec())
-                                : std::string("nothing to solve: no position and heading yet, or the solver failed");
+                                : "nothing solved: " + batch_->estimator->failure();
   return true;
 }
 

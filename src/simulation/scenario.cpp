@@ -72,6 +72,8 @@ Scenario Scenario::read(YamlSection yaml) {
   scenario.datum = {datum[0], datum[1], datum[2]};
   if (std::abs(datum[0]) > 90) yaml.fail("datum", fmt::format("has latitude {} but it must lie between -90 and 90", datum[0]));
   readTruth(yaml.section("truth"), scenario);
+  scenario.sensor(Sensor::Heading).sigma = 0.5 * kRadPerDeg;
+  scenario.sensor(Sensor::TurnRate).sigma = 0.1 * kRadPerDeg;
   auto sensors = yaml.section("sensors");
   for (int i = 0; i < kSensors; ++i) {
     const auto sensor = static_cast<Sensor>(i);

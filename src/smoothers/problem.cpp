@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/smoothers/problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sas_motion/math/factorization.hpp"
@@ -15,29 +16,40 @@ double halfSquared(const Matrix<kStates>& covariance, const StateVector& residua
   return 0.5 * residual.dot(covariance.llt().solve(residual));
 }
 
-std::vector<Measurement> startWindow(const std::vector<Measurement>& measurements, const Config& config) {
-  std::vector<Measurement> window;
-  const Stamp end = measurements.front().stamp + stampFromSeconds(config.start.window);
-  for (const auto& z : measurements) {
-    if (z.stamp > end) break;
-    window.push_back(z);
+/// Where the measurements start to tell position and heading, and the belief there.
+struct Start {
+  std::size_t first;
+  Gaussian<kStates> prior;
+};
+
+std::optional<Start> findStart(const std::vector<Measurement>& measurements, const Config& config) {
+  const auto has = [&](std::size_t from, std::size_t to, Sensor sensor) {
+    return std::any_of(measurements.begin() + static_cast<std::ptrdiff_t>(from), measurements.begin() + static_cast<std::ptrdiff_t>(to),
+                       [&](const Measurement& z) { return z.sensor == sensor; });
+  };
+  for (std::size_t first = 0, end = 0; first < measurements.size(); ++first) {
+    const Stamp last = measurements[first].stamp + stampFromSeconds(config.start.window);
+    while (end < measurements.size() && measurements[end].stamp <= last) ++end;
+    if (!has(first, end, Sensor::Position) || !has(first, end, Sensor::Heading)) continue;
+    const std::vector<Measurement> window(measurements.begin() + static_cast<std::ptrdiff_t>(first), measurements.begin() + static_cast<std::ptrdiff_t>(end));
+    if (const auto prior = startingBelief(measurements[first].stamp, window, config.start, config.model.current_sigma)) return Start{first, *prior};
   }
-  return window;
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<SmoothingProblem> buildProblem(const std::vector<Measurement>& measurements, const Config& config) {
-  if (measurements.empty()) return std::nullopt;
-  const auto prior = startingBelief(measurements.front().stamp, startWindow(measurements, config), config.start, config.model.current_sigma);
-  if (!prior) return std::nullopt;
+  const auto start = findStart(measurements, config);
+  if (!start) return std::nullopt;
 
-  SmoothingProblem problem{Model(config.model), *prior, {}, {}, {}, {}, {}, {}};
+  SmoothingProblem problem{Model(config.model), start->prior, {}, {}, {}, {}, {}, {}};
   const RobustKalmanFilter<kStates> filter(config.robust_kf);
-  Gaussian<kStates> belief = *prior;
+  Gaussian<kStates> belief = start->prior;
   Input input;
   Stamp input_stamp = 0;
-  for (const auto& z : measurements) {
+  for (std::size_t i = start->first; i < measurements.size(); ++i) {
+    const Measurement& z = measurements[i];
     if (problem.stamps.empty() || z.stamp != problem.stamps.back()) {
       const double dt = problem.stamps.empty() ? 0 : secondsBetween(problem.stamps.back(), z.stamp);
       const Input known = secondsBetween(input_stamp, z.stamp) <= config.input_hold ? input : Input{};

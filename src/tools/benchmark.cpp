@@ -58,7 +58,8 @@ struct Row {
     aperture.push_back(result.scores.aperture.across);
     if (result.scores.nees_full) nees.push_back(result.scores.nees_full->mean);
   }
-  double rmse() const { return rootMeanSquare(position); }
+  double rmse() const { return position.empty() ? NAN : rootMeanSquare(position); }  // nothing to say where all runs diverged
+  double median() const { return position.empty() ? NAN : quantile(position, 0.5); }
 };
 
 using Table = std::map<std::pair<std::string, std::string>, Row>;  // by law, estimator
@@ -84,7 +85,7 @@ void print(const Campaign& campaign, Table& table) {
                "aperture [mm]", "NEES/6", "diverged", "us/update");
     for (const auto& name : campaign.estimators) {
       const Row& row = table[{law.name, name}];
-      fmt::print("{:<14}{:>12.4f}{:>12.4f}{:>8.3f}{:>8.3f}{:>10.3f}{:>14.2f}{:>10.2f}{:>10}{:>10.2f}\n", name, row.rmse(), quantile(row.position, 0.5),
+      fmt::print("{:<14}{:>12.4f}{:>12.4f}{:>8.3f}{:>8.3f}{:>10.3f}{:>14.2f}{:>10.2f}{:>10}{:>10.2f}\n", name, row.rmse(), row.median(),
                  ratio(row.rmse(), table[{clean, name}].rmse()), has_kf ? ratio(row.rmse(), table[{law.name, "kf"}].rmse()) : NAN,
                  has_oracle ? ratio(row.rmse(), table[{law.name, kOracle}].rmse()) : NAN, 1e3 * mean(row.aperture), mean(row.nees) / kStates, row.diverged,
                  1e6 * row.seconds / static_cast<double>(std::max<std::size_t>(1, row.measurements)));
@@ -97,7 +98,7 @@ json summary(const Campaign& campaign, Table& table) {
   for (const auto& law : campaign.laws)
     for (const auto& name : campaign.estimators) {
       const Row& row = table[{law.name, name}];
-      all["laws"][law.name][name] = {{"position_rmse", row.rmse()}, {"position_rmse_median", quantile(row.position, 0.5)}, {"nees_per_state", mean(row.nees) / kStates},
+      all["laws"][law.name][name] = {{"position_rmse", row.rmse()}, {"position_rmse_median", row.median()}, {"nees_per_state", mean(row.nees) / kStates},
                                      {"aperture_across", mean(row.aperture)}, {"diverged", row.diverged}};
     }
   return all;

@@ -3,9 +3,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <functional>
+#include <vector>
 
 namespace sas_motion {
 
@@ -13,10 +17,14 @@ namespace sas_motion {
 /// wrong usage.
 inline int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& run) {
   try {
-    app.parse(argc, argv);
+    std::vector<const char*> arguments(argv, argv + argc);
+    const auto of_roslaunch = [](const char* a) { return std::strncmp(a, "__", 2) == 0 && std::strstr(a, ":=") != nullptr; };  // __name:=, __log:=
+    arguments.erase(std::remove_if(arguments.begin(), arguments.end(), of_roslaunch), arguments.end());
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond its limit is a failed write, not the end of the process
   try {
     run();
   } catch (const std::exception& error) {

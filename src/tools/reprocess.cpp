@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "main_guard.hpp"
@@ -32,16 +33,19 @@ struct Options {
   bool resume = false;
 };
 
+/// A hash of a file's bytes (FNV-1a).
+std::string hashOf(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<char> block(1 << 20);
+  std::uint64_t hash = 1469598103934665603ULL;
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0)
+    for (std::streamsize i = 0; i < stream.gcount(); ++i) hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 1099511628211ULL;
+  return fmt::format("{:016x}", hash);
+}
+
 /// What identifies a finished bag: the same input, configuration and estimators would give the same bytes again.
 json identity(const std::string& bag, const Options& options) {
-  std::string config;
-  if (!options.config.empty()) {
-    std::ifstream stream(options.config, std::ios::binary);
-    config.assign(std::istreambuf_iterator<char>(stream), {});
-  }
-  std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a
-  for (const char c : config) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return {{"bytes", std::filesystem::file_size(bag)}, {"config", fmt::format("{:016x}", hash)}, {"estimators", options.estimators}};
+  return {{"input", hashOf(bag)}, {"config", options.config.empty() ? "built in" : hashOf(options.config)}, {"estimators", options.estimators}};
 }
 
 json toJson(const ReprocessReport& report) {
@@ -75,6 +79,12 @@ void printReport(const ReprocessReport& report) {
                e.verdicts[2], e.verdicts[3], e.verdicts[4]);
 }
 
+/// A smoother that found no answer is an error, though the other estimators' results stand.
+void requireAnswers(const ReprocessReport& report) {
+  for (const auto& [name, e] : report.estimators)
+    if (!e.failure.empty()) throw std::runtime_error(fmt::format("{}: {} found no answer: {}", report.input, name, e.failure));
+}
+
 /// The manifest of a folder, rewritten whole after each bag.
 class Manifest {
  public:
@@ -97,16 +107,29 @@ class Manifest {
   json all_;
 };
 
+/// The outputs of two estimators, or of two bags, must not have the same name.
+void requireDistinct(const Options& options) {
+  std::set<std::string> names, files;
+  for (const auto& name : options.estimators)
+    if (!names.insert(name).second) throw std::runtime_error(fmt::format("--estimators: '{}' is there twice; name each once", name));
+  for (const auto& bag : options.bags)
+    if (!files.insert(std::filesystem::path(bag).filename()).second)
+      throw std::runtime_error(fmt::format("{}: another bag of this name is among the inputs; reprocess it into another folder", bag));
+}
+
 void run(const Options& options) {
   const Settings settings = Settings::fromFile(options.config);
   for (const auto& name : options.estimators)
     if (!towfish::makeAnyEstimator(name, settings.estimation))
       throw std::runtime_error(fmt::format("--estimators: '{}' is no estimator; known are {}", name, fmt::join(towfish::estimatorNames(), ", ")));
+  requireDistinct(options);
   double duration = 0;
   for (const auto& bag : options.bags) {
     const auto source = openBag(bag);
-    rosbag::View view(*source);
-    if (view.size() > 0) duration += (view.getEndTime() - view.getBeginTime()).toSec();
+    readBag(bag, [&] {
+      rosbag::View view(*source);
+      if (view.size() > 0) duration += (view.getEndTime() - view.getBeginTime()).toSec();
+    });
   }
   makeFolder(options.out);
   Manifest manifest(options.out + "/manifest.json");
@@ -124,13 +147,14 @@ void run(const Options& options) {
           const std::lock_guard<std::mutex> lock(mutex);
           if (options.resume && manifest.has(name, id) && std::filesystem::exists(options.out + "/" + name)) continue;
         }
-        const auto report = reprocess(bag, options.out, options.estimators, settings, [&](double seconds) { progress.advance(seconds); });
+        const auto report = readBag(bag, [&] { return reprocess(bag, options.out, options.estimators, settings, [&](double seconds) { progress.advance(seconds); }); });
         json entry = toJson(report);
         entry["identity"] = id;
         const std::lock_guard<std::mutex> lock(mutex);
         writeFile(options.out + "/" + std::filesystem::path(name).stem().string() + ".cost.json", costOf(report).dump(2) + "\n");
-        manifest.add(name, entry);
         printReport(report);
+        requireAnswers(report);
+        manifest.add(name, entry);
       } catch (const std::exception& error) {
         const std::lock_guard<std::mutex> lock(mutex);
         failures.emplace_back(error.what());

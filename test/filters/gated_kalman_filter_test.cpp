@@ -10,13 +10,12 @@ namespace sas_motion {
 namespace {
 
 /// A reading of state 0 that is `sigmas` standard deviations of its innovation off.
-LinearMeasurement<6, 1> reading(const Gaussian<6>& prior, double sigmas, int source = 0) {
+LinearMeasurement<6, 1> reading(const Gaussian<6>& prior, double sigmas) {
   LinearMeasurement<6, 1> z;
   z.H.setZero();
   z.H(0, 0) = 1;
   z.R(0, 0) = 1;
   z.innovation(0) = sigmas * std::sqrt(prior.covariance(0, 0) + 1);
-  z.source = source;
   return z;
 }
 
@@ -24,18 +23,18 @@ TEST(GatedKalmanFilter, IsTheKalmanFilterInsideTheGate) {
   Random random = testing::announced(61);
   const auto prior = testing::randomBelief<6>(random);
   const auto z = reading(prior, 2.5);
-  const auto gated = GatedKalmanFilter<6>({}).update({prior}, z);
-  EXPECT_EQ(gated.belief.state.mean, KalmanFilter<6>().update(prior, z).belief.mean);
+  const auto gated = GatedKalmanFilter<6>({}).update(prior, z);
+  EXPECT_EQ(gated.belief.mean, KalmanFilter<6>().update(prior, z).belief.mean);
   EXPECT_EQ(gated.verdict, Verdict::Accepted);
 }
 
 TEST(GatedKalmanFilter, RejectsATenSigmaReading) {
   Random random = testing::announced(62);
   const auto prior = testing::randomBelief<6>(random);
-  const auto update = GatedKalmanFilter<6>({}).update({prior}, reading(prior, 10));
+  const auto update = GatedKalmanFilter<6>({}).update(prior, reading(prior, 10));
   EXPECT_EQ(update.verdict, Verdict::Rejected);
-  EXPECT_EQ(update.belief.state.mean, prior.mean);
-  EXPECT_EQ(update.belief.state.covariance, prior.covariance);
+  EXPECT_EQ(update.belief.mean, prior.mean);
+  EXPECT_EQ(update.belief.covariance, prior.covariance);
   EXPECT_EQ(update.weights(0), 0);
   EXPECT_NEAR(update.nis, 100, 1e-9);
 }
@@ -45,52 +44,17 @@ TEST(GatedKalmanFilter, TheGateLetsThroughItsShareOfGoodReadings) {
   for (const double probability : {0.9, 0.99}) {
     GatedKalmanFilter<6>::Options options;
     options.probability = probability;
-    options.reset_after = 1'000'000;
     const GatedKalmanFilter<6> filter(options);
     const int draws = 20000;
     int rejected = 0;
-    for (int i = 0; i < draws; ++i) rejected += filter.update({Gaussian<6>()}, reading(Gaussian<6>(), random.gaussian())).verdict == Verdict::Rejected;
+    for (int i = 0; i < draws; ++i) rejected += filter.update(Gaussian<6>(), reading(Gaussian<6>(), random.gaussian())).verdict == Verdict::Rejected;
     const double sigma = std::sqrt(draws * probability * (1 - probability));
     EXPECT_NEAR(rejected, draws * (1 - probability), 4 * sigma);
   }
 }
 
-TEST(GatedKalmanFilter, BelievesASensorAgainAfterManyRejectionsInARow) {
-  GatedKalmanFilter<6>::Options options;
-  options.reset_after = 5;
-  const GatedKalmanFilter<6> filter(options);
-  GatedBelief<6> belief;
-  LinearMeasurement<6, 1> z = reading(belief.state, 0);
-  z.innovation(0) = 100;
-  for (int i = 0; i < options.reset_after; ++i) {
-    const auto update = filter.update(belief, z);
-    ASSERT_EQ(update.verdict, Verdict::Rejected) << i;
-    belief = update.belief;
-  }
-  const auto update = filter.update(belief, z);
-  EXPECT_EQ(update.verdict, Verdict::Accepted);
-  EXPECT_GT(update.belief.state.mean(0), 95);  // it has come over
-  EXPECT_EQ(update.belief.rejected_in_a_row[0], 0);
-}
-
-TEST(GatedKalmanFilter, CountsEachSensorOnItsOwnAndForgetsAtAGoodReading) {
-  const GatedKalmanFilter<6> filter({});
-  GatedBelief<6> belief;
-  const auto feed = [&](double sigmas, int source) { belief = filter.update(belief, reading(belief.state, sigmas, source)).belief; };
-  feed(10, 1);
-  feed(10, 1);
-  feed(10, 2);
-  EXPECT_EQ(belief.rejected_in_a_row[1], 2);
-  EXPECT_EQ(belief.rejected_in_a_row[2], 1);
-  feed(0, 1);
-  EXPECT_EQ(belief.rejected_in_a_row[1], 0);
-  EXPECT_EQ(belief.rejected_in_a_row[2], 1);
-}
-
-TEST(GatedKalmanFilter, RefusesBadOptions) {
-  EXPECT_THROW(GatedKalmanFilter<6>({1.0, 10}), std::invalid_argument);
-  EXPECT_THROW(GatedKalmanFilter<6>({0.0, 10}), std::invalid_argument);
-  EXPECT_THROW(GatedKalmanFilter<6>({0.99, 0}), std::invalid_argument);
+TEST(GatedKalmanFilter, RefusesAProbabilityOutsideZeroToOne) {
+  for (const double bad : {0.0, 1.0, -0.5, std::nan("")}) EXPECT_THROW(GatedKalmanFilter<6>({bad}), std::invalid_argument) << bad;
 }
 
 }  // namespace

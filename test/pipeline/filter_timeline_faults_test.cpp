@@ -28,7 +28,7 @@ std::vector<Measurement> broken(const Measurement& good) {
     add([&](auto& z) { z.value(1) = bad; });
     add([&](auto& z) { z.lever_arm_body(0) = bad; });
   }
-  for (const double bad : {kNan, 0.0, -1.0, kInf})
+  for (const double bad : {kNan, 0.0, -1.0, kInf, 1e-310})
     for (int row = 0; row < rowsOf(good.sensor); ++row) add([&](auto& z) { z.variance(row) = bad; });
   for (const Stamp bad : {Stamp{0}, Stamp{-5}}) add([&](auto& z) { z.stamp = bad; });
   add([&](auto& z) { z.value.setConstant(1e9); });

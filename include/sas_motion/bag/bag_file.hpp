@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/format.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,25 +19,49 @@ namespace sas_motion::ros_side {
 /// an index, cut short).
 std::unique_ptr<rosbag::Bag> openBag(const std::string& path);
 
+/// Runs `read`; what rosbag throws halfway through a damaged bag becomes a std::runtime_error that names the file.
+template <class Read>
+auto readBag(const std::string& path, const Read& read) {
+  try {
+    return read();
+  } catch (const ros::Exception& error) {
+    throw std::runtime_error(fmt::format("{}: is damaged ({}); 'rosbag reindex' may save what is whole", path, error.what()));
+  }
+}
+
 /// A bag that appears under its name only when it is whole.
 class BagOutput {
  public:
+  /// Its functions throw std::runtime_error naming the file where it cannot be written.
   explicit BagOutput(const std::string& path);
 
   template <class Message>
   void write(const std::string& topic, ros::Time time, const Message& message) {
-    bag_.write(topic, time, message);
+    guarded([&] { bag_->write(topic, time, message); });
   }
   /// As a latched topic, so that late subscribers to a played bag still get it.
   template <class Message>
   void writeLatched(const std::string& topic, ros::Time time, const Message& message) {
-    bag_.write(topic, time, message, latchedHeader<Message>());
+    guarded([&] { bag_->write(topic, time, message, latchedHeader<Message>()); });
   }
-  rosbag::Bag& bag() { return bag_; }
-  /// Closes and puts in place. Throws std::runtime_error naming the file.
+  /// A message of another bag, as it is there.
+  void copy(const rosbag::MessageInstance& message);
+  /// No more is written.
+  void close();
+  /// Closes and puts in place.
   void commit();
 
  private:
+  template <class Action>
+  void guarded(const Action& action) {
+    try {
+      action();
+    } catch (const rosbag::BagException& error) {
+      abandon(error.what());
+    }
+  }
+  [[noreturn]] void abandon(const std::string& reason);
+
   template <class Message>
   static boost::shared_ptr<ros::M_string> latchedHeader() {
     auto header = boost::make_shared<ros::M_string>();
@@ -49,7 +75,7 @@ class BagOutput {
 
   std::string path_;
   AtomicFile file_;
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag> bag_;
 };
 
 /// A topic's name without its leading slash: bags recorded live have one, bags written by tools often not.

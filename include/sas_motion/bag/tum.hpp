@@ -19,7 +19,9 @@ class TumFile {
   TumFile& operator=(const TumFile&) = delete;
 
   void write(const towfish::Estimate& estimate);
-  /// Throws std::runtime_error naming the file where the disk is full.
+  /// No more is written. Throws std::runtime_error naming the file where the disk is full.
+  void close();
+  /// Closes and puts in place.
   void commit();
 
  private:

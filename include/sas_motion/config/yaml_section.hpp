@@ -47,6 +47,8 @@ class YamlSection {
   /// The keys of this mapping, for maps whose keys are names.
   std::vector<std::string> keys() const;
   void finish() const;
+  /// Lets a key pass that somebody else reads.
+  void ignore(const std::string& key) { asked_.insert(key); }
 
   [[noreturn]] void fail(const std::string& key, const std::string& what) const;
   const std::string& file() const { return file_; }

@@ -21,7 +21,8 @@ struct LinearMeasurement {
   Vector<M> innovation;
   Matrix<M, N> H;
   Matrix<M> R;
-  int source = 0;  ///< which sensor, below kMaxSources, for filters that remember something of each
+  double time = 0;  ///< when [s], for filters that remember how long something has lasted
+  int source = 0;   ///< which sensor, below kMaxSources, for filters that remember something of each
 };
 
 constexpr int kMaxSources = 8;

@@ -11,7 +11,7 @@ namespace sas_motion {
 ///
 /// Minimises sum rho1(P^{-1/2}(x^- - x)) + sum rho2(R^{-1/2}(z - H x)) (15) by iteratively re-weighted least squares from the prediction.
 /// One iteration takes the weights at the prediction, as the paper does; there the process residuals are zero, so W1 = I whatever
-/// `robustify_process` says. Redescending losses start from the converged Huber answer. P^{1/2} is the symmetric root.
+/// `robustify_process` says. Redescending losses start from Huber's answer, found with as many iterations. P^{1/2} is the symmetric root.
 template <int N>
 class RobustKalmanFilter {
  public:

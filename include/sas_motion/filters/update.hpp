@@ -12,7 +12,7 @@ enum class Verdict {
   DownWeighted,  ///< fused, a row with less than half its weight
   Rejected,      ///< left out by the filter
   Stale,         ///< too late to be fused
-  Invalid        ///< not finite, no usable covariance, a duplicate, an unknown frame or a failed factorization
+  Invalid        ///< not finite, no usable covariance, a duplicate or a failed factorization
 };
 
 /// The report of one measurement update. A failed factorization leaves the belief at the prior and the verdict at Invalid.

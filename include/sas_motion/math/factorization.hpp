@@ -21,6 +21,7 @@ std::optional<Matrix<N>> choleskyLower(const Matrix<N>& A) {
 /// The symmetric square root A^{1/2}, or nothing where A is not positive definite.
 template <int N>
 std::optional<Matrix<N>> symmetricSqrt(const Matrix<N>& A) {
+  if (!A.allFinite()) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Matrix<N>> solver(A);
   if (solver.info() != Eigen::Success || !(solver.eigenvalues().minCoeff() > 0)) return std::nullopt;
   return Matrix<N>(solver.operatorSqrt());

@@ -49,8 +49,8 @@ struct Input {
 
 /// The motion's noise and the current's law.
 struct MotionParameters {
-  double current_sigma = 0.2;            ///< standard deviation of each current component [m/s]
-  double current_time_constant = 600;    ///< 1 / beta: correlation time of the current [s]
+  double current_sigma = 0.5;            ///< standard deviation of each current component [m/s]
+  double current_time_constant = 3600;   ///< 1 / beta: correlation time of the current [s]
   double heading_noise = 0.5 * kRadPerDeg;  ///< random walk of the heading [rad/sqrt(s)]
   double speed_noise = 0.05;             ///< random walk of the speed [m/s/sqrt(s)]
   double position_noise = 0.01;          ///< random walk of the position: what the model leaves out [m/sqrt(s)]

@@ -60,6 +60,8 @@ class Estimator {
   virtual std::optional<Estimate> current() const = 0;
   /// The state at any stamp inside the lag or after the newest measurement, or nothing.
   virtual std::optional<Estimate> at(Stamp stamp) const = 0;
+  /// Why the last finish() has no answer, in plain words; empty where all is well.
+  virtual std::string failure() const { return ""; }
   /// Forgets everything.
   virtual void reset() = 0;
 };

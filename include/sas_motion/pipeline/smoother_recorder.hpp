@@ -24,6 +24,7 @@ class SmootherRecorder final : public Estimator {
   std::optional<Estimate> current() const override { return std::nullopt; }
   std::optional<Estimate> at(Stamp) const override { return std::nullopt; }
   void reset() override { measurements_.clear(); }
+  std::string failure() const override { return summary_.failure; }
 
   /// The last solution, without its states.
   const SmootherResult& summary() const { return summary_; }

@@ -28,7 +28,7 @@ using Transform = Eigen::Isometry3d;
 inline Stamp stampOf(const ros::Time& time) { return static_cast<Stamp>(time.toNSec()); }
 ros::Time timeOf(Stamp stamp);
 
-/// Each message gives one or two measurements. What is absent in a message (no fix, no orientation, covariance[0] = -1) is left out;
+/// Each message gives up to two measurements. What is absent in a message (no fix, no orientation, covariance[0] = -1) is left out;
 /// what is wrong in it comes through and is refused by the estimators, which count it.
 std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const LocalFrame& frame, const Transform& T_base_gnss,
                                         const towfish::Config& config);

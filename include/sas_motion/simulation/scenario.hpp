@@ -33,7 +33,7 @@ struct Scenario {
 
   std::string name;
   double duration = 600;  ///< [s]
-  double step = 0.01;     ///< of the truth; rates and phases are multiples of it [s]
+  double step = 0.01;     ///< of the truth; periods and phases of sensors are multiples of it [s]
   Geodetic datum{54.35, 10.15, 0};
   Kind kind = Kind::RandomWalk;
   double heading = 0;     ///< at the start [rad]

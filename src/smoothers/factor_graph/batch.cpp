@@ -2,19 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/smoothers/factor_graph/batch.hpp"
 
+#include <gtsam/linear/linearExceptions.h>
 #include <gtsam/nonlinear/GncOptimizer.h>
 #include <gtsam/nonlinear/LevenbergMarquardtOptimizer.h>
 #include <gtsam/nonlinear/Marginals.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
+#include <string>
 
 #include "sas_motion/smoothers/factor_graph/towfish_factors.hpp"
 
 namespace sas_motion::towfish {
 namespace {
 
-gtsam::LevenbergMarquardtParams levenbergMarquardt(const SmootherOptions& options) {
+gtsam::LevenbergMarquardtParams levenbergMarquardt(const SmootherOptions& options, gtsam::Marginals::Factorization factorization) {
+  using Solvers = gtsam::NonlinearOptimizerParams;
   gtsam::LevenbergMarquardtParams params;
+  params.linearSolverType = factorization == gtsam::Marginals::QR ? Solvers::MULTIFRONTAL_QR : Solvers::MULTIFRONTAL_CHOLESKY;
   params.maxIterations = static_cast<std::size_t>(options.max_iterations);
   params.relativeErrorTol = options.tolerance;
   params.absoluteErrorTol = 0;
@@ -23,29 +29,46 @@ gtsam::LevenbergMarquardtParams levenbergMarquardt(const SmootherOptions& option
   return params;
 }
 
+/// GTSAM's messages have paragraphs; the first one says what happened.
+std::string firstSentence(std::string text) {
+  const auto begin = text.find_first_not_of(" \n");
+  text = begin == std::string::npos ? "" : text.substr(begin);
+  text = text.substr(0, text.find("\n\n"));
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 std::vector<StateVector> trajectoryOf(const gtsam::Values& values) {
   std::vector<StateVector> trajectory(values.size());
   for (std::size_t k = 0; k < trajectory.size(); ++k) trajectory[k] = values.at<StateVector>(k);
   return trajectory;
 }
 
-void addMarginals(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values& values, SmootherResult& result) {
-  const gtsam::Marginals marginals(graph, values);
+void addMarginals(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values& values, gtsam::Marginals::Factorization factorization, SmootherResult& result) {
+  const gtsam::Marginals marginals(graph, values, factorization);
   const auto trajectory = trajectoryOf(values);
   result.states.resize(trajectory.size());
   for (std::size_t k = 0; k < trajectory.size(); ++k) result.states[k] = {trajectory[k], marginals.marginalCovariance(k)};
 }
 
-/// Runs a solver that may throw, as GTSAM does where a system is indeterminate, and turns that into data.
+using Factorization = gtsam::Marginals::Factorization;
+
+/// Runs a solver by Cholesky and, where GTSAM finds the system indeterminate, by QR, which stands worse conditioning (nodes a microsecond
+/// apart, long stretches without a sensor). What QR throws becomes data.
 template <class Solve>
 SmootherResult guarded(Solve solve) {
+  SmootherResult result;
   try {
-    return solve();
+    try {
+      result = solve(gtsam::Marginals::CHOLESKY);
+    } catch (const gtsam::IndeterminantLinearSystemException&) {
+      result = solve(gtsam::Marginals::QR);
+    }
+    if (!std::isfinite(result.cost)) result.failure = "the cost is not finite";
   } catch (const std::exception& error) {
-    SmootherResult failed;
-    failed.failure = error.what();
-    return failed;
+    result.failure = firstSentence(error.what());
   }
+  return result;
 }
 
 }  // namespace
@@ -67,29 +90,29 @@ gtsam::Values initialValues(const std::vector<StateVector>& trajectory) {
 }
 
 SmootherResult smoothBatch(const SmoothingProblem& problem, const SmootherOptions& options) {
-  return guarded([&] {
+  return guarded([&](Factorization factorization) {
     SmootherResult result;
     gtsam::Values values = initialValues(problem.initial);
     std::vector<Loss> stages{options.loss};
     if (options.loss.redescending()) stages.insert(stages.begin(), Loss(LossKind::Huber));
     for (const Loss& loss : stages) {
       const auto graph = buildGraph(problem, loss);
-      gtsam::LevenbergMarquardtOptimizer optimizer(graph, values, levenbergMarquardt(options));
+      gtsam::LevenbergMarquardtOptimizer optimizer(graph, values, levenbergMarquardt(options, factorization));
       values = optimizer.optimize();
       result.cost = optimizer.error();
       result.iterations += static_cast<int>(optimizer.iterations());
       result.converged = optimizer.iterations() < static_cast<std::size_t>(options.max_iterations);
     }
-    addMarginals(buildGraph(problem, options.loss), values, result);
+    addMarginals(buildGraph(problem, options.loss), values, factorization, result);
     result.weights = weightsAt(problem, options.loss, trajectoryOf(values));
     return result;
   });
 }
 
 SmootherResult smoothGnc(const SmoothingProblem& problem, double probability) {
-  return guarded([&] {
+  return guarded([&](Factorization factorization) {
     const auto graph = buildGraph(problem, Loss(LossKind::L2));
-    gtsam::GncParams<gtsam::LevenbergMarquardtParams> params(levenbergMarquardt({Loss(LossKind::L2), 100, 1e-7}));
+    gtsam::GncParams<gtsam::LevenbergMarquardtParams> params(levenbergMarquardt({Loss(LossKind::L2), 100, 1e-7}, factorization));
     params.setLossType(gtsam::GncLossType::TLS);
     gtsam::GncParams<gtsam::LevenbergMarquardtParams>::IndexVector trusted;
     for (std::size_t i = 0; i < graph.size(); ++i)
@@ -104,7 +127,7 @@ SmootherResult smoothGnc(const SmoothingProblem& problem, double probability) {
     gtsam::NonlinearFactorGraph inliers;
     for (std::size_t i = 0; i < graph.size(); ++i)
       if (weights(static_cast<Eigen::Index>(i)) > 0.5) inliers.push_back(graph.at(i));
-    addMarginals(inliers, values, result);
+    addMarginals(inliers, values, factorization, result);
     result.cost = inliers.error(values);
     result.converged = true;
     std::size_t factor = 1;  // the prior comes first

@@ -32,6 +32,7 @@ struct FixedLagSmoother::Window {
     Key key;
     Stamp stamp;
     std::vector<Measurement> measurements;
+    bool put_out = false;  // a pause puts out the newest node too, which stays
   };
 
   explicit Window(const Config& settings)
@@ -51,7 +52,7 @@ struct FixedLagSmoother::Window {
 
   void addNode(Stamp stamp) {
     const Key key = next_key++;
-    nodes.push_back({key, stamp, {}});
+    nodes.push_back({key, stamp, {}, false});
     values.insert(key, belief.mean);
     timestamps[key] = secondsBetween(origin, stamp);
   }
@@ -127,7 +128,7 @@ void FixedLagSmoother::process(const Measurement& z, Output& output) {
     return;
   }
   waiting_.insert(place, z);
-  const double wait = window_->started() ? config_.fixed_lag.reorder : std::max(config_.fixed_lag.reorder, config_.start.window);
+  const double wait = config_.fixed_lag.reorder + (window_->started() ? 0 : config_.start.window);
   release(waiting_.back().stamp - stampFromSeconds(wait), output);
 }
 
@@ -145,20 +146,19 @@ void FixedLagSmoother::release(Stamp until, Output& output) {
 }
 
 bool FixedLagSmoother::start(Stamp until, Output& output) {
-  if (waiting_.empty()) return false;
-  const Stamp first = waiting_.front().stamp;
-  if (until < first) return false;
-  std::vector<Measurement> window;
-  for (const auto& z : waiting_)
-    if (z.stamp <= first + stampFromSeconds(config_.start.window)) window.push_back(z);
-  const auto prior = startingBelief(first, window, config_.start, config_.model.current_sigma);
-  if (prior) {
-    window_->start(*prior, first);
-    return true;
+  while (!waiting_.empty() && waiting_.front().stamp <= until) {
+    const Stamp first = waiting_.front().stamp;
+    std::vector<Measurement> window;
+    for (const auto& z : waiting_)
+      if (z.stamp <= first + stampFromSeconds(config_.start.window)) window.push_back(z);
+    if (const auto prior = startingBelief(first, window, config_.start, config_.model.current_sigma)) {
+      window_->start(*prior, first);
+      return true;
+    }
+    output.audits.push_back(refusal(waiting_.front(), Verdict::Stale, "before the first position and heading"));
+    released_ = first;
+    waiting_.pop_front();
   }
-  output.audits.push_back(refusal(waiting_.front(), Verdict::Stale, "before the first position and heading"));
-  released_ = first;
-  waiting_.pop_front();
   return false;
 }
 
@@ -180,18 +180,25 @@ void FixedLagSmoother::rebuild(Output& output) {
   fresh->input = window_->input;
   fresh->input_stamp = window_->input_stamp;
   fresh->start(window_->belief, window_->nodes.back().stamp);
+  fresh->nodes.back().put_out = window_->nodes.back().put_out;
   window_ = std::move(fresh);
 }
 
 void FixedLagSmoother::settle(Stamp until, Output& output) {
   auto& nodes = window_->nodes;
+  until = std::min(until, window_->solved);
   while (!nodes.empty() && nodes.front().stamp <= until) {
-    const Estimate estimate = window_->estimate(nodes.front());
-    for (const auto& z : nodes.front().measurements) {
-      const auto weights = weightsAt(z, estimate.belief.mean, window_->model, config_.fixed_lag.loss);
-      output.audits.push_back(smoothedAudit(z, estimate.belief.mean, window_->model, weights, 1));
+    auto& node = nodes.front();
+    if (!node.put_out) {
+      const Estimate estimate = window_->estimate(node);
+      for (const auto& z : node.measurements) {
+        const auto weights = weightsAt(z, estimate.belief.mean, window_->model, config_.fixed_lag.loss);
+        output.audits.push_back(smoothedAudit(z, estimate.belief.mean, window_->model, weights, 1));
+      }
+      output.estimates.push_back(estimate);
+      node.measurements.clear();
+      node.put_out = true;
     }
-    output.estimates.push_back(estimate);
     if (nodes.size() == 1) return;  // the newest node stays: the next motion factor starts there
     nodes.pop_front();
   }

@@ -5,6 +5,8 @@
 #include <gtsam/nonlinear/NonlinearFactor.h>
 #include <gtsam/nonlinear/NonlinearFactorGraph.h>
 
+#include <boost/make_shared.hpp>
+
 #include "sas_motion/models/towfish.hpp"
 #include "sas_motion/smoothers/problem.hpp"
 
@@ -18,6 +20,7 @@ class MotionFactor final : public gtsam::NoiseModelFactor2<StateVector, StateVec
   MotionFactor(Key from, Key to, const Model& model, const Input& input, double dt, const StateMatrix& Q);
   gtsam::Vector evaluateError(const StateVector& from, const StateVector& to, boost::optional<gtsam::Matrix&> H_from,
                               boost::optional<gtsam::Matrix&> H_to) const override;
+  gtsam::NonlinearFactor::shared_ptr clone() const override { return boost::make_shared<MotionFactor>(*this); }
 
  private:
   Model model_;
@@ -30,6 +33,7 @@ class RowFactor final : public gtsam::NoiseModelFactor1<StateVector> {
  public:
   RowFactor(Key key, const Model& model, const Measurement& z, int row, const Loss& loss);
   gtsam::Vector evaluateError(const StateVector& x, boost::optional<gtsam::Matrix&> H) const override;
+  gtsam::NonlinearFactor::shared_ptr clone() const override { return boost::make_shared<RowFactor>(*this); }
 
  private:
   Model model_;
@@ -42,6 +46,7 @@ class PriorStateFactor final : public gtsam::NoiseModelFactor1<StateVector> {
  public:
   PriorStateFactor(Key key, const Gaussian<kStates>& prior);
   gtsam::Vector evaluateError(const StateVector& x, boost::optional<gtsam::Matrix&> H) const override;
+  gtsam::NonlinearFactor::shared_ptr clone() const override { return boost::make_shared<PriorStateFactor>(*this); }
 
  private:
   StateVector mean_;

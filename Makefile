@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 The sas_motion authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# The front door. Each target sets up what it needs: packages, GTSAM, the build.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+export PATH := /usr/bin:$(PATH)
+
+BUILD ?= build
+OUT ?= compare
+CMAKE_FLAGS ?=
+GENERATOR := -G Ninja
+WITH_ROS := if [ -r /opt/ros/noetic/setup.bash ]; then set +u; source /opt/ros/noetic/setup.bash; set -u; fi
+ENVIRONMENT := set +u; source devel/setup.bash; set -u
+
+.PHONY: help setup build compare test bench check install clean
+
+help:  ## what there is
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
+
+setup:  ## install Debian packages and GTSAM, where missing
+	@scripts/setup.sh
+
+build: setup  ## build everything, in build/ and devel/
+	@echo "build: configuring and compiling (about 6 minutes on two cores the first time)"
+	@$(WITH_ROS); cmake -S . -B $(BUILD) $(GENERATOR) -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_DEVEL_PREFIX=$(CURDIR)/devel $(CMAKE_FLAGS) > $(BUILD)-configure.log 2>&1 \
+	  || { mkdir -p $(BUILD); tail -n 20 $(BUILD)-configure.log; echo "build: CMake could not configure; its log is $(BUILD)-configure.log" >&2; exit 1; }
+	@cmake --build $(BUILD) -j $$(nproc) -- --quiet
+
+compare: build  ## simulate, launch nodelet and smoother, evaluate both against truth, write compare/report.html
+	@$(ENVIRONMENT); scripts/compare.sh $(OUT)
+
+test: build  ## run every test
+	@$(ENVIRONMENT); scripts/run_tests.sh $(BUILD)
+
+bench: build  ## measure accuracy, speed and memory; SMOKE=1 for the smallest size
+	@scripts/setup.sh libopencv-video-dev libopencv-core-dev
+	@$(ENVIRONMENT); scripts/bench.sh $(BUILD)
+
+check:  ## formatting, lint and sanitizers
+	@scripts/setup.sh clang-format clang-tidy
+	@scripts/check.sh
+
+install: build  ## install into install/, which runs without the source tree
+	@cmake -DCMAKE_INSTALL_PREFIX=$(CURDIR)/install -P $(BUILD)/cmake_install.cmake > /dev/null && echo "install: source install/setup.bash"
+
+clean:  ## remove what was built
+	@rm -rf $(BUILD) $(BUILD)-configure.log devel install

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "sas_motion/filters/kalman_filter.hpp"
+
+namespace sas_motion {
+
+/// How long a row of a sensor has not been believed, and whether what it says agrees with itself.
+struct Disbelief {
+  int count = 0;               ///< readings running that were down-weighted or rejected
+  int agreements = 0;          ///< of them, how many agreed with the one before
+  double since = 0;            ///< time of the first [s]
+  double last_innovation = 0;
+};
+
+/// A belief, and the disbelief in each row of each sensor.
+template <class Belief>
+struct WatchedBelief {
+  static constexpr int kMaxRows = 4;
+  Belief state;
+  std::array<std::array<Disbelief, kMaxRows>, kMaxSources> disbelief{};
+};
+
+template <class Belief>
+const auto& gaussian(const WatchedBelief<Belief>& belief) {
+  return gaussian(belief.state);
+}
+
+/// Any filter that leaves measurements out, with a rule to come back.
+///
+/// A filter that trusts its prediction locks out after a jump, or after an outage in which it drifted further than it thought: every good
+/// measurement then looks like an outlier. So once a row of a sensor has been down-weighted or rejected for longer than `reset_after`, and
+/// its readings agree with each other, as scattered outliers do not, the covariance grows along P H^T of that row until the latest
+/// innovation is one of its standard deviations, and the measurement is fused anew.
+template <class Filter, int N>
+class ReacquiringFilter {
+ public:
+  using Belief = WatchedBelief<typename Filter::Belief>;
+
+  /// `reset_after` in seconds; throws std::invalid_argument where it is not positive.
+  ReacquiringFilter(const Filter& filter, double reset_after) : filter_(filter), reset_after_(reset_after) {
+    if (!(reset_after > 0)) throw std::invalid_argument("reset_after is " + std::to_string(reset_after) + " but must be positive");
+  }
+
+  Belief predict(const Belief& belief, const Transition<N>& transition) const {
+    return {filter_.predict(belief.state, transition), belief.disbelief};
+  }
+
+  template <int M>
+  Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
+    static_assert(M <= Belief::kMaxRows);
+    auto inner = filter_.update(prior.state, z);
+    auto disbelief = prior.disbelief;
+    auto widened = prior.state;
+    bool reacquire = false;
+    for (int row = 0; row < M && inner.verdict != Verdict::Invalid; ++row) {
+      auto& doubt = disbelief[static_cast<std::size_t>(z.source)][static_cast<std::size_t>(row)];
+      if (!lockedOut(doubt, inner.weights(row), inner.innovation(row), z.R(row, row), z.time)) continue;
+      doubt = {};
+      widen(widened.covariance, z.H.row(row).transpose(), inner.innovation(row) * inner.innovation(row) - inner.S(row, row));
+      reacquire = true;
+    }
+    if (reacquire) inner = filter_.update(widened, z);
+    return {{inner.belief, disbelief}, inner.innovation, inner.S, inner.nis, inner.weights, inner.iterations, inner.converged, inner.verdict};
+  }
+
+ private:
+  /// Keeps account of one row; true where it is time to believe it again.
+  bool lockedOut(Disbelief& doubt, double weight, double innovation, double R, double time) const {
+    if (weight >= kDownWeighted) {
+      doubt = {};
+      return false;
+    }
+    if (doubt.count == 0) doubt.since = time;
+    const double step = innovation - doubt.last_innovation;
+    const bool agrees = doubt.count > 0 && step * step < 2 * kAgreement * kAgreement * R;
+    ++doubt.count;
+    doubt.agreements += agrees;
+    doubt.last_innovation = innovation;
+    return agrees && time - doubt.since > reset_after_ && doubt.count >= kFewest && doubt.agreements >= kFewestAgreements;
+  }
+
+  /// Adds `variance` to h^T P h, and to the states as far as they go with it.
+  static void widen(Matrix<N>& P, const Vector<N>& h, double variance) {
+    const Vector<N> direction = P * h / h.dot(P * h);
+    if (variance > 0 && direction.allFinite()) P += variance * direction * direction.transpose();
+  }
+
+  Filter filter_;
+  double reset_after_;
+
+  static constexpr double kAgreement = 3;  // two readings agree when they differ by less than so many standard deviations
+  static constexpr int kFewest = 10;
+  static constexpr int kFewestAgreements = 5;
+};
+
+}  // namespace sas_motion
