@@ -18,30 +18,43 @@ const Loss& startingLoss() {
   return huber;
 }
 
+/// Re-weighted least squares in the measurement's rows alone: the residual after an update with noise R is nu - H P H^T S^{-1} nu.
 template <int M>
-struct Reweighted {
-  Vector<M> weights;
-  Matrix<M> R;   // L W^{-1} L^T
+class Reweighting {
+ public:
+  Reweighting(const Vector<M>& innovation, const Matrix<M>& HPHt, const Matrix<M>& R_nominal, const Whitening<M>& noise, const Innovation<M>& S_nominal)
+      : R(R_nominal), S(S_nominal), innovation_(innovation), HPHt_(HPHt), whitening_(noise), whitened_(noise.whiten(innovation)) {}
+
+  /// Weighs anew until no weight moves more than the tolerance.
+  void iterate(const Loss& loss, int max_iterations, double tolerance) {
+    converged = false;
+    for (int i = 0; i < max_iterations && !converged; ++i) {
+      const Vector<M> next = weightsOf(loss, whitened_);
+      const bool same = (next - weights).cwiseAbs().maxCoeff() < tolerance;
+      converged = same && iterations > 0;  // the residual is that of these weights, not yet the prediction's
+      if (converged) break;
+      ++iterations;
+      if (!same) {
+        weights = next;
+        R = whitening_.weighted(weights);
+        S = Innovation<M>(HPHt_ + R);
+      }
+      whitened_ = whitening_.whiten(innovation_ - HPHt_ * S.solve(innovation_));
+    }
+  }
+
+  Vector<M> weights = Vector<M>::Ones();
+  Matrix<M> R;      // L W^{-1} L^T
+  Innovation<M> S;  // H P H^T + R
   int iterations = 0;
   bool converged = false;
-};
 
-/// Iterates the weights in the measurement's rows alone: the residual after an update with noise R is nu - H P H^T S^{-1} nu.
-template <int M>
-Reweighted<M> reweight(const Loss& loss, const Vector<M>& innovation, const Matrix<M>& HPHt, const Whitening<M>& whitening,
-                       Vector<M> whitened, int max_iterations, double tolerance) {
-  Reweighted<M> result;
-  while (result.iterations < max_iterations && !result.converged) {
-    ++result.iterations;
-    result.weights = weightsOf(loss, whitened);
-    result.R = whitening.weighted(result.weights);
-    const Innovation<M> S(HPHt + result.R);
-    const Vector<M> next = whitening.whiten(innovation - HPHt * S.solve(innovation));
-    result.converged = (next - whitened).cwiseAbs().maxCoeff() < tolerance;
-    whitened = next;
-  }
-  return result;
-}
+ private:
+  const Vector<M>& innovation_;
+  const Matrix<M>& HPHt_;
+  const Whitening<M>& whitening_;
+  Vector<M> whitened_;
+};
 
 }  // namespace
 
@@ -73,18 +86,13 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateMeasurementWeights(const Bel
     result.verdict = Verdict::Invalid;
     return result;
   }
-  Vector<M> whitened = whitening.whiten(z.innovation);  // at the prediction
-  int spent = 0;
-  if (options_.loss.redescending() && options_.max_iterations > 1) {
-    const auto huber = reweight(startingLoss(), z.innovation, projection.HPHt, whitening, whitened, options_.max_iterations, options_.tolerance);
-    whitened = whitening.whiten(z.innovation - projection.HPHt * Innovation<M>(projection.HPHt + huber.R).solve(z.innovation));
-    spent = huber.iterations;
-  }
-  const auto reweighted = reweight(options_.loss, z.innovation, projection.HPHt, whitening, whitened, options_.max_iterations, options_.tolerance);
-  result.belief = condition(prior, projection, reweighted.R, Innovation<M>(projection.HPHt + reweighted.R), z.innovation);
-  result.weights = reweighted.weights;
-  result.iterations = spent + reweighted.iterations;
-  result.converged = reweighted.converged;
+  Reweighting<M> reweighting(z.innovation, projection.HPHt, z.R, whitening, S);
+  if (options_.loss.redescending() && options_.max_iterations > 1) reweighting.iterate(startingLoss(), options_.max_iterations, options_.tolerance);
+  reweighting.iterate(options_.loss, options_.max_iterations, options_.tolerance);
+  result.belief = condition(prior, projection, reweighting.R, reweighting.S, z.innovation);
+  result.weights = reweighting.weights;
+  result.iterations = reweighting.iterations;
+  result.converged = reweighting.converged;
   result.verdict = verdictFromWeights(result.weights);
   return result;
 }

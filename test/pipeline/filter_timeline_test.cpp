@@ -141,11 +141,12 @@ TEST(Scenario, GnssMovesForGoodAndIsBelievedInTheEnd) {
   // WHEN all fixes from 100 s on are 500 m to the east
   for (auto& z : run.measurements)
     if (z.sensor == Sensor::Position && secondsBetween(Simulator::kStart, z.stamp) >= 100) z.value(1) += 500;
-  // THEN every filter comes over
+  // THEN every filter comes over within its reset time and some more, and is not thrown off by it
   for (const auto& name : testing::filterNames()) {
-    auto last = testing::feed(name, testing::configFor(scenario), run.measurements).estimates.back();
-    last.belief.mean(kEast) -= 500;
-    EXPECT_LT(testing::positionError(last, run), 15) << name;
+    auto output = testing::feed(name, testing::configFor(scenario), run.measurements);
+    for (auto& estimate : output.estimates)
+      if (secondsBetween(Simulator::kStart, estimate.stamp) >= 100) estimate.belief.mean(kEast) -= 500;
+    EXPECT_LT(worstError(output, run, name == "kf" ? 195 : 130, 200), 15) << name;  // the plain filter's current takes a while
   }
 }
 

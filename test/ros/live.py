@@ -82,25 +82,28 @@ class Nodelet:
 
 
 @contextlib.contextmanager
-def nodelet(session, sensors, kind, config, estimators, transforms=None, **parameters):
+def nodelet(session, sensors, kind, config, estimators, transforms, **parameters):
     """A nodelet that listens to the sensors, for as long as the block lasts."""
     name = kind.replace("Nodelet", "").lower()
     rospy.set_param(f"/{name}", {"config": str(config), "estimators": list(estimators), "idle_timeout": 2.0, **parameters})
-    if transforms is not None:
-        sensors.transforms.publish(transforms)
-    with session.running_process("rosrun", "nodelet", "nodelet", "standalone", f"sas_motion/{kind}", f"__name:={name}") as process:
-        under_test = Nodelet(name, estimators)
-        own = f"/{name}"
-        for publisher in [*sensors.publishers.values(), sensors.transforms]:
-            wait_until(lambda publisher=publisher: publisher.get_num_connections() > 0 or process.poll() is not None, f"{own} listens to {publisher.name}")
-        assert process.poll() is None, process.log.read_text()
-        wait_until(lambda: all(s.get_num_connections() > 0 for s in under_test.subscribers), f"the tests listen to {own}")
-        yield under_test
-    for subscriber in under_test.subscribers:
-        subscriber.unregister()
-    for publisher in sensors.publishers.values():
-        wait_until(lambda publisher=publisher: publisher.get_num_connections() == 0, f"{own} has gone")
-    rospy.delete_param(own)
+    sensors.transforms.publish(transforms)
+    publishers = [*sensors.publishers.values(), sensors.transforms]
+    others = {publisher: publisher.get_num_connections() for publisher in publishers}
+    under_test = Nodelet(name, estimators)
+    try:
+        with session.running_process("rosrun", "nodelet", "nodelet", "standalone", f"sas_motion/{kind}", f"__name:={name}") as process:
+            for publisher in publishers:
+                wait_until(lambda publisher=publisher: publisher.get_num_connections() > others[publisher] or process.poll() is not None,
+                           f"/{name} listens to {publisher.name}")
+            assert process.poll() is None, process.log.read_text()
+            wait_until(lambda: under_test.status and all(s.get_num_connections() > 0 for s in under_test.subscribers), f"the tests listen to /{name}")
+            yield under_test
+    finally:
+        for subscriber in under_test.subscribers:
+            subscriber.unregister()
+        rospy.delete_param(f"/{name}")
+    for publisher in publishers:
+        wait_until(lambda publisher=publisher: publisher.get_num_connections() <= others[publisher], f"/{name} has gone")
 
 
 def transforms_of(bag):

@@ -35,7 +35,7 @@ const auto& gaussian(const WatchedBelief<Belief>& belief) {
 ///
 /// A filter that trusts its prediction locks out after a jump, or after an outage in which it drifted further than it thought: every good
 /// measurement then looks like an outlier. So once a row of a sensor has been down-weighted or rejected for longer than `reset_after`, and
-/// its readings agree with each other, as scattered outliers do not, the covariance grows along P H^T of that row until the latest
+/// its readings agree with each other, as scattered outliers do not, the covariance grows in that row until the latest
 /// innovation is one of its standard deviations, and the measurement is fused anew.
 template <class Filter, int N>
 class ReacquiringFilter {
@@ -85,10 +85,11 @@ class ReacquiringFilter {
     return agrees && time - doubt.since > reset_after_ && doubt.count >= kFewest && doubt.agreements >= kFewestAgreements;
   }
 
-  /// Adds `variance` to h^T P h, and to the states as far as they go with it.
+  /// Adds `variance` to h^T P h twice: with the states that go with it, for a drift, and on its own, for a jump of the sensor's. With the
+  /// first alone a jump of the position would be taken for a current of tens of metres a second.
   static void widen(Matrix<N>& P, const Vector<N>& h, double variance) {
-    const Vector<N> direction = P * h / h.dot(P * h);
-    if (variance > 0 && direction.allFinite()) P += variance * direction * direction.transpose();
+    const Vector<N> drift = P * h / h.dot(P * h), jump = h / h.squaredNorm();
+    if (variance > 0 && drift.allFinite()) P += variance * (drift * drift.transpose() + jump * jump.transpose());
   }
 
   Filter filter_;

@@ -20,7 +20,7 @@ class RobustKalmanFilter {
   struct Options {
     Loss loss{LossKind::Huber};       ///< rho2, on measurements whitened by R
     int max_iterations = 10;          ///< 1 is the paper's single pass
-    double tolerance = 1e-6;          ///< fixed point: no whitened residual moves more [-]
+    double tolerance = 1e-6;          ///< fixed point: no weight moves more [-]
     bool robustify_process = false;   ///< let W1 act, with the same loss
   };
 
