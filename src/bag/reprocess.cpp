@@ -90,7 +90,8 @@ ReprocessReport reprocess(const std::string& input, const std::string& folder, c
   BagOutput bag(out);
   tf2::BufferCore transforms;
   std::vector<std::unique_ptr<Lane>> lanes;
-  for (const auto& name : estimators) lanes.push_back(std::make_unique<Lane>(name, settings, bag, fmt::format("{}.{}.tum", (out.parent_path() / out.stem()).string(), name)));
+  for (const auto& name : estimators)
+    lanes.push_back(std::make_unique<Lane>(name, settings, bag, fmt::format("{}.{}.tum", (out.parent_path() / out.stem()).string(), name)));
 
   std::vector<Measurement> batch;
   Ingest ingest(settings, transforms, [&](const Measurement& z) { batch.push_back(z); });

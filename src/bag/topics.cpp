@@ -28,8 +28,8 @@ std::string find(const TypeByTopic& types, const std::string& wanted, const std:
     candidates.push_back(topic);
   }
   if (candidates.size() > 1)
-    throw std::runtime_error(fmt::format("{}: no topic {} but {} of its type {}: {}; name one under topics: in the configuration", file, wanted, candidates.size(),
-                                         type, fmt::join(candidates, ", ")));
+    throw std::runtime_error(fmt::format("{}: no topic {} but {} of its type {}: {}; name one under topics: in the configuration", file, wanted,
+                                         candidates.size(), type, fmt::join(candidates, ", ")));
   return candidates.empty() ? "" : candidates.front();
 }
 
@@ -52,7 +52,8 @@ SensorTopics findTopics(const rosbag::View& view, const Settings& settings, cons
   if (topics.fix.empty() && topics.imu.empty() && topics.twist.empty())
     throw std::runtime_error(fmt::format("{}: no known topic; {}, {} or {} (or topics of their types) are needed, 'rosbag info' lists what there is", file,
                                          settings.fix_topic, settings.imu_topic, settings.twist_topic));
-  if (topics.fix.empty()) throw std::runtime_error(fmt::format("{}: no topic {} or any other sensor_msgs/NavSatFix; positions are needed", file, settings.fix_topic));
+  if (topics.fix.empty())
+    throw std::runtime_error(fmt::format("{}: no topic {} or any other sensor_msgs/NavSatFix; positions are needed", file, settings.fix_topic));
   if (topics.imu.empty()) throw std::runtime_error(fmt::format("{}: no topic {} or any other sensor_msgs/Imu; headings are needed", file, settings.imu_topic));
   for (const auto& [topic, type] : types)
     if (type == "tf2_msgs/TFMessage") topics.transforms.insert(topic);

@@ -20,8 +20,8 @@ TumFile::~TumFile() {
 void TumFile::write(const towfish::Estimate& estimate) {
   const auto& x = estimate.belief.mean;
   const double yaw = kPi / 2 - x(towfish::kHeading);
-  const std::string line = fmt::format("{}.{:09d} {:.9f} {:.9f} 0 0 0 {:.12f} {:.12f}\n", estimate.stamp / kNanosecondsPerSecond, estimate.stamp % kNanosecondsPerSecond,
-                                       x(towfish::kEast), x(towfish::kNorth), std::sin(yaw / 2), std::cos(yaw / 2));
+  const std::string line = fmt::format("{}.{:09d} {:.9f} {:.9f} 0 0 0 {:.12f} {:.12f}\n", estimate.stamp / kNanosecondsPerSecond,
+                                       estimate.stamp % kNanosecondsPerSecond, x(towfish::kEast), x(towfish::kNorth), std::sin(yaw / 2), std::cos(yaw / 2));
   std::fwrite(line.data(), 1, line.size(), stream_);  // commit() looks for failures
 }
 

@@ -144,8 +144,7 @@ void readConfig(YamlSection& yaml, Config& config) {
   yaml.number("reset_after", config.reset_after, {kTiny, 1e6});
   yaml.number("input_hold", config.input_hold, {0, 3600});
   yaml.angle("turn_rate_limit_deg", config.turn_rate_limit, {kTiny, 3600});
-  if (config.start.window > config.lag)
-    yaml.fail("start.window", fmt::format("is {} but must be at most lag, which is {}", config.start.window, config.lag));
+  if (config.start.window > config.lag) yaml.fail("start.window", fmt::format("is {} but must be at most lag, which is {}", config.start.window, config.lag));
   readEstimators(yaml.section("estimators"), config);
 }
 

@@ -23,8 +23,7 @@ YAML::Node parsed(const std::string& name, const std::function<YAML::Node()>& lo
 
 }  // namespace
 
-YamlSection::YamlSection(YAML::Node node, std::string file, std::string path)
-    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {
+YamlSection::YamlSection(YAML::Node node, std::string file, std::string path) : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {
   if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap())
     throw ConfigError(fmt::format("{}: {} must be a mapping of keys to values", file_, path_.empty() ? "the file" : path_));
 }
@@ -38,9 +37,7 @@ YamlSection YamlSection::fromText(const std::string& text, const std::string& na
   return {parsed(name, [&] { return YAML::Load(text); }), name, ""};
 }
 
-void YamlSection::fail(const std::string& key, const std::string& what) const {
-  throw ConfigError(fmt::format("{}: {} {}", file_, pathOf(key), what));
-}
+void YamlSection::fail(const std::string& key, const std::string& what) const { throw ConfigError(fmt::format("{}: {} {}", file_, pathOf(key), what)); }
 
 bool YamlSection::has(const std::string& key) const { return node_.IsMap() && node_[key].IsDefined(); }
 

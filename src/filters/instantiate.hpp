@@ -9,10 +9,10 @@
 #define SAS_MOTION_INSTANTIATE_UPDATE(Filter, N, M) \
   template Update<Filter<N>::Belief, M> Filter<N>::update<M>(const Filter<N>::Belief&, const LinearMeasurement<N, M>&) const;
 
-#define SAS_MOTION_INSTANTIATE_UPDATES(Filter)  \
-  template class Filter<2>;                     \
-  template class Filter<6>;                     \
-  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 2, 1)   \
-  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 6, 1)   \
-  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 6, 2)   \
+#define SAS_MOTION_INSTANTIATE_UPDATES(Filter) \
+  template class Filter<2>;                    \
+  template class Filter<6>;                    \
+  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 2, 1)  \
+  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 6, 1)  \
+  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 6, 2)  \
   SAS_MOTION_INSTANTIATE_UPDATE(Filter, 6, 4)

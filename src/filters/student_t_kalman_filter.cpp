@@ -13,8 +13,7 @@ namespace sas_motion {
 
 template <int N>
 StudentTKalmanFilter<N>::StudentTKalmanFilter(const Options& options) : options_(options) {
-  if (!(options.degrees_of_freedom > 0))
-    throw std::invalid_argument(fmt::format("degrees_of_freedom is {} but must be positive", options.degrees_of_freedom));
+  if (!(options.degrees_of_freedom > 0)) throw std::invalid_argument(fmt::format("degrees_of_freedom is {} but must be positive", options.degrees_of_freedom));
   if (options.max_iterations < 1) throw std::invalid_argument(fmt::format("max_iterations is {} but must be at least 1", options.max_iterations));
   if (!(options.tolerance > 0)) throw std::invalid_argument(fmt::format("tolerance is {} but must be positive", options.tolerance));
 }

@@ -9,9 +9,7 @@
 
 namespace sas_motion {
 
-double chiSquaredQuantile(double probability, double degrees) {
-  return boost::math::quantile(boost::math::chi_squared(degrees), probability);
-}
+double chiSquaredQuantile(double probability, double degrees) { return boost::math::quantile(boost::math::chi_squared(degrees), probability); }
 
 Band averageChiSquaredBand(double degrees, double count, double probability) {
   const double tail = 0.5 * (1 - probability);

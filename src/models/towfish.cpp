@@ -171,8 +171,6 @@ LinearMeasurement<kStates, 1> Model::heading(const Measurement& z, const StateVe
   return scalar(z, kHeading, wrapAngle(z.value(0) - x(kHeading)));
 }
 
-LinearMeasurement<kStates, 1> Model::speed(const Measurement& z, const StateVector& x) const {
-  return scalar(z, kSpeed, z.value(0) - x(kSpeed));
-}
+LinearMeasurement<kStates, 1> Model::speed(const Measurement& z, const StateVector& x) const { return scalar(z, kSpeed, z.value(0) - x(kSpeed)); }
 
 }  // namespace sas_motion::towfish

@@ -7,7 +7,7 @@
 namespace sas_motion::towfish {
 namespace {
 
-constexpr double kAgreement = 3;  // two readings agree when they differ by a few standard deviations
+constexpr double kAgreement = 3;     // two readings agree when they differ by a few standard deviations
 constexpr double kUnknownSpeed = 5;  // standard deviation without a speed sensor [m/s]
 
 /// The index of the reading that the others lie nearest to, by the sum of Gaussian kernels of their squared distance in sigmas.
@@ -35,17 +35,16 @@ std::vector<Measurement> ofSensor(const std::vector<Measurement>& window, Sensor
 
 }  // namespace
 
-std::optional<Gaussian<kStates>> startingBelief(Stamp stamp, const std::vector<Measurement>& window, const StartOptions& options,
-                                                 double current_sigma) {
+std::optional<Gaussian<kStates>> startingBelief(Stamp stamp, const std::vector<Measurement>& window, const StartOptions& options, double current_sigma) {
   const auto positions = ofSensor(window, Sensor::Position), headings = ofSensor(window, Sensor::Heading), speeds = ofSensor(window, Sensor::Speed);
   if (positions.empty() || headings.empty()) return std::nullopt;
 
   const double heading = headings[consensus(headings.size(), [&](std::size_t i, std::size_t j) {
-    return std::pow(wrapAngle(headings[i].value(0) - headings[j].value(0)), 2) / (headings[i].variance(0) + headings[j].variance(0));
-  })].value(0);
+                           return std::pow(wrapAngle(headings[i].value(0) - headings[j].value(0)), 2) / (headings[i].variance(0) + headings[j].variance(0));
+                         })].value(0);
   const double speed = speeds.empty() ? 0 : speeds[consensus(speeds.size(), [&](std::size_t i, std::size_t j) {
-    return std::pow(speeds[i].value(0) - speeds[j].value(0), 2) / (speeds[i].variance(0) + speeds[j].variance(0));
-  })].value(0);
+                                              return std::pow(speeds[i].value(0) - speeds[j].value(0), 2) / (speeds[i].variance(0) + speeds[j].variance(0));
+                                            })].value(0);
 
   const Vector<2> velocity(speed * std::cos(heading), speed * std::sin(heading));
   std::vector<Vector<2>> moved;

@@ -45,7 +45,8 @@ std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& 
   if (name == "mixture_kf") return reacquiring(MixtureKalmanFilter<kStates>(config.mixture_kf), config);
   if (name == "student_t_kf") return reacquiring(StudentTKalmanFilter<kStates>(config.student_t_kf), config);
   if (name.rfind(kRobustPrefix, 0) == 0) return robustWithLoss(name.substr(kRobustPrefix.size()), config);
-  if (name == "rts") return std::make_unique<SmootherRecorder>(config, [options = config.rts](const SmoothingProblem& problem) { return smoothRts(problem, options); });
+  if (name == "rts")
+    return std::make_unique<SmootherRecorder>(config, [options = config.rts](const SmoothingProblem& problem) { return smoothRts(problem, options); });
   return nullptr;
 }
 

@@ -59,9 +59,7 @@ double Loss::defaultTuning(LossKind kind) {
   return 1;
 }
 
-bool Loss::redescending(LossKind kind) {
-  return kind != LossKind::L2 && kind != LossKind::Huber && kind != LossKind::PseudoHuber;
-}
+bool Loss::redescending(LossKind kind) { return kind != LossKind::L2 && kind != LossKind::Huber && kind != LossKind::PseudoHuber; }
 
 const std::vector<std::string>& lossNames() {
   static const std::vector<std::string> names{"l2", "huber", "pseudo_huber", "cauchy", "tukey", "geman_mcclure", "welsch", "dcs"};

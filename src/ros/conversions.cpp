@@ -68,13 +68,9 @@ ros::Time timeOf(Stamp stamp) {
   return time;
 }
 
-bool hasPosition(const sensor_msgs::NavSatFix& fix) {
-  return fix.status.status >= 0 && std::abs(fix.latitude) <= 90 && std::abs(fix.longitude) <= 360;
-}
+bool hasPosition(const sensor_msgs::NavSatFix& fix) { return fix.status.status >= 0 && std::abs(fix.latitude) <= 90 && std::abs(fix.longitude) <= 360; }
 
-Geodetic geodeticOf(const sensor_msgs::NavSatFix& fix) {
-  return {fix.latitude, fix.longitude, std::isfinite(fix.altitude) ? fix.altitude : 0};
-}
+Geodetic geodeticOf(const sensor_msgs::NavSatFix& fix) { return {fix.latitude, fix.longitude, std::isfinite(fix.altitude) ? fix.altitude : 0}; }
 
 std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const LocalFrame& frame, const Transform& T_base_gnss, const Config& config) {
   const SensorOptions& options = config.sensor(Sensor::Position);

@@ -30,14 +30,15 @@ void EstimatorServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
     if (counts.messages > 0) status.addf(name + " age [s]", "%.2f", secondsBetween(counts.newest, newest));
     if (counts.messages > 0 && secondsBetween(counts.newest, newest) > kSilent)
       status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, name + " is silent");
-    if (counts.unknown_frame > 0) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, name + " has a frame without a transform to " + settings_.base_frame);
+    if (counts.unknown_frame > 0)
+      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, name + " has a frame without a transform to " + settings_.base_frame);
     if (counts.lost > 0) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, fmt::format("{} messages of {} lost", counts.lost, name));
   }
   for (const auto& lane : lanes_) {
     std::uint64_t all = 0;
     for (const auto count : lane.verdicts) all += count;
-    status.addf(lane.name + " accepted, down-weighted, rejected, stale, invalid", "%lu, %lu, %lu, %lu, %lu", lane.verdicts[0], lane.verdicts[1], lane.verdicts[2],
-                lane.verdicts[3], lane.verdicts[4]);
+    status.addf(lane.name + " accepted, down-weighted, rejected, stale, invalid", "%lu, %lu, %lu, %lu, %lu", lane.verdicts[0], lane.verdicts[1],
+                lane.verdicts[2], lane.verdicts[3], lane.verdicts[4]);
     const double refused = all > 0 ? 1 - static_cast<double>(lane.verdicts[0]) / static_cast<double>(all) : 0;
     status.addf(lane.name + " not accepted [%]", "%.1f", 100 * refused);
     if (refused > kManyRejections) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, lane.name + " does not accept most of its measurements");

@@ -13,8 +13,9 @@ namespace sas_motion::ros_side {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;  // messages kept for a slow callback or subscriber
-constexpr std::size_t kBurst = 20;      // messages published at once before a pause: rosbag record keeps 100 of a topic for its own threads
-constexpr double kPause = 0.01;         // [s]
+// A whole recording at once would overrun its subscribers: rosbag record keeps 100 messages of a topic for its threads.
+constexpr std::size_t kBurst = 10;      // messages of a topic published at once before a pause
+constexpr double kPause = 0.02;         // [s]
 
 geometry_msgs::TransformStamped mapToOdom(const Settings& settings, ros::Time stamp) {
   geometry_msgs::TransformStamped T;
@@ -33,8 +34,7 @@ void readParameter(const ros::NodeHandle& own, const std::string& key, T& value)
 
 }  // namespace
 
-EstimatorServer::EstimatorServer(ros::NodeHandle node, ros::NodeHandle own, const std::vector<std::string>& default_estimators)
-    : node_(node), own_(own) {
+EstimatorServer::EstimatorServer(ros::NodeHandle node, ros::NodeHandle own, const std::vector<std::string>& default_estimators) : node_(node), own_(own) {
   std::string config;
   bool with_batch = false;
   auto names = default_estimators;
@@ -70,7 +70,8 @@ EstimatorServer::EstimatorServer(ros::NodeHandle node, ros::NodeHandle own, cons
   listener_ = std::make_unique<tf2_ros::TransformListener>(transforms_, node_);
   startAnew();
   const auto hints = ros::TransportHints().tcpNoDelay();
-  subscribers_.push_back(node_.subscribe<sensor_msgs::NavSatFix>(settings_.fix_topic, kQueue, &EstimatorServer::onMessage<sensor_msgs::NavSatFix>, this, hints));
+  subscribers_.push_back(
+      node_.subscribe<sensor_msgs::NavSatFix>(settings_.fix_topic, kQueue, &EstimatorServer::onMessage<sensor_msgs::NavSatFix>, this, hints));
   subscribers_.push_back(node_.subscribe<sensor_msgs::Imu>(settings_.imu_topic, kQueue, &EstimatorServer::onMessage<sensor_msgs::Imu>, this, hints));
   subscribers_.push_back(node_.subscribe<geometry_msgs::TwistWithCovarianceStamped>(
       settings_.twist_topic, kQueue, &EstimatorServer::onMessage<geometry_msgs::TwistWithCovarianceStamped>, this, hints));
@@ -119,19 +120,17 @@ void EstimatorServer::publishNow(Lane& lane) {
 }
 
 void EstimatorServer::publishSettled(Lane& lane) {
-  std::size_t published = 0;
-  const auto pace = [&published] {  // a whole recording at once would overrun the subscribers' queues
-    if (++published % kBurst == 0) ros::WallDuration(kPause).sleep();
-  };
-  for (const auto& audit : output_.audits) {
-    ++lane.verdicts[static_cast<std::size_t>(audit.verdict)];
-    lane.publishers["update"].publish(updateOf(audit));
-    pace();
-  }
-  for (const auto& estimate : output_.estimates) {
-    lane.publishers["settled"].publish(odometryOf(estimate, settings_));
-    lane.publishers["settled_current"].publish(currentOf(estimate, settings_));
-    pace();
+  const auto& [estimates, audits] = output_;
+  for (std::size_t i = 0; i < std::max(estimates.size(), audits.size()); ++i) {
+    if (i < audits.size()) {
+      ++lane.verdicts[static_cast<std::size_t>(audits[i].verdict)];
+      lane.publishers["update"].publish(updateOf(audits[i]));
+    }
+    if (i < estimates.size()) {
+      lane.publishers["settled"].publish(odometryOf(estimates[i], settings_));
+      lane.publishers["settled_current"].publish(currentOf(estimates[i], settings_));
+    }
+    if (i % kBurst == kBurst - 1) ros::WallDuration(kPause).sleep();
   }
   output_.clear();
 }
@@ -228,8 +227,8 @@ bool EstimatorServer::onSolveBatch(std_srvs::Trigger::Request&, std_srvs::Trigge
   const std::size_t states = output_.estimates.size();
   publishSettled(*batch_);
   response.success = states > 0;
-  response.message = states > 0 ? fmt::format("{} states in {:.2f} s", states, (ros::WallTime::now() - begin).toSec())
-                                : "nothing solved: " + batch_->estimator->failure();
+  response.message =
+      states > 0 ? fmt::format("{} states in {:.2f} s", states, (ros::WallTime::now() - begin).toSec()) : "nothing solved: " + batch_->estimator->failure();
   return true;
 }
 

@@ -13,8 +13,7 @@ constexpr std::size_t kMostWaiting = 10000;  // messages of unknown frames kept 
 
 }  // namespace
 
-Ingest::Ingest(const Settings& settings, const tf2::BufferCore& transforms, Sink sink)
-    : settings_(settings), transforms_(transforms), sink_(std::move(sink)) {
+Ingest::Ingest(const Settings& settings, const tf2::BufferCore& transforms, Sink sink) : settings_(settings), transforms_(transforms), sink_(std::move(sink)) {
   if (settings.datum) setDatum(*settings.datum);
 }
 
@@ -56,7 +55,8 @@ void Ingest::retry() {
 
 namespace {
 
-std::vector<Measurement> measure(const sensor_msgs::NavSatFix& message, const std::optional<LocalFrame>& frame, const Transform& T, const towfish::Config& config) {
+std::vector<Measurement> measure(const sensor_msgs::NavSatFix& message, const std::optional<LocalFrame>& frame, const Transform& T,
+                                 const towfish::Config& config) {
   return frame ? measurementsOf(message, *frame, T, config) : std::vector<Measurement>{};
 }
 template <class Message>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nodelet/nodelet.h>
+
 #include <pluginlib/class_list_macros.hpp>
 
 #include "sas_motion/ros/estimator_server.hpp"

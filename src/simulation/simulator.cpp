@@ -25,11 +25,9 @@ struct Waves {
 
 }  // namespace
 
-Simulator::Simulator(const Scenario& scenario, std::uint64_t seed)
-    : scenario_(scenario), model_(scenario.motion), current_noise_(seed, kCurrentStream) {
+Simulator::Simulator(const Scenario& scenario, std::uint64_t seed) : scenario_(scenario), model_(scenario.motion), current_noise_(seed, kCurrentStream) {
   for (std::uint64_t i = 0; i < kStates; ++i) process_.emplace_back(scenario.process, seed, kProcessStream + i);
-  for (std::uint64_t i = 0; i < 2 * kSensors; ++i)
-    sensor_.emplace_back(scenario.sensors[i / 2].noise, seed, kSensorStream + i);
+  for (std::uint64_t i = 0; i < 2 * kSensors; ++i) sensor_.emplace_back(scenario.sensors[i / 2].noise, seed, kSensorStream + i);
   Random waves(seed, kWaveStream);
   for (auto& phase : phases_) phase = 2 * kPi * waves.uniform();
   current_ = scenario.current;

@@ -12,9 +12,7 @@ namespace sas_motion::towfish {
 namespace {
 
 /// Half the squared Mahalanobis length of a residual.
-double halfSquared(const Matrix<kStates>& covariance, const StateVector& residual) {
-  return 0.5 * residual.dot(covariance.llt().solve(residual));
-}
+double halfSquared(const Matrix<kStates>& covariance, const StateVector& residual) { return 0.5 * residual.dot(covariance.llt().solve(residual)); }
 
 /// Where the measurements start to tell position and heading, and the belief there.
 struct Start {
@@ -100,8 +98,7 @@ Vector<2> weightsAt(const Measurement& z, const StateVector& x, const Model& mod
 std::vector<Vector<2>> weightsAt(const SmoothingProblem& problem, const Loss& loss, const std::vector<StateVector>& states) {
   std::vector<Vector<2>> weights(problem.measurements.size());
   for (std::size_t k = 0; k < problem.nodes(); ++k)
-    for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j)
-      weights[j] = weightsAt(problem.measurements[j], states[k], problem.model, loss);
+    for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j) weights[j] = weightsAt(problem.measurements[j], states[k], problem.model, loss);
   return weights;
 }
 

@@ -67,7 +67,8 @@ using Table = std::map<std::pair<std::string, std::string>, Row>;  // by law, es
 Table tabulate(const Campaign& campaign, const std::vector<RunResult>& results) {
   std::map<std::string, std::vector<double>> clean;  // an estimator's position RMSE under the first law
   for (const auto& result : results)
-    if (result.law == campaign.laws.front().name && result.scores.error[kPositionGroup]) clean[result.estimator].push_back(result.scores.error[kPositionGroup]->rmse);
+    if (result.law == campaign.laws.front().name && result.scores.error[kPositionGroup])
+      clean[result.estimator].push_back(result.scores.error[kPositionGroup]->rmse);
   Table table;
   for (const auto& result : results) table[{result.law, result.estimator}].add(result, 50 * quantile(clean[result.estimator], 0.5));
   return table;
@@ -98,8 +99,11 @@ json summary(const Campaign& campaign, Table& table) {
   for (const auto& law : campaign.laws)
     for (const auto& name : campaign.estimators) {
       const Row& row = table[{law.name, name}];
-      all["laws"][law.name][name] = {{"position_rmse", row.rmse()}, {"position_rmse_median", row.median()}, {"nees_per_state", mean(row.nees) / kStates},
-                                     {"aperture_across", mean(row.aperture)}, {"diverged", row.diverged}};
+      all["laws"][law.name][name] = {{"position_rmse", row.rmse()},
+                                     {"position_rmse_median", row.median()},
+                                     {"nees_per_state", mean(row.nees) / kStates},
+                                     {"aperture_across", mean(row.aperture)},
+                                     {"diverged", row.diverged}};
     }
   return all;
 }
@@ -109,7 +113,8 @@ void run(const Options& options) {
   if (options.runs > 0) campaign.runs = options.runs;
   for (const auto& name : campaign.estimators)
     if (name != kOracle && !makeAnyEstimator(name, campaign.config))
-      throw std::runtime_error(fmt::format("{}: estimators: '{}' is no estimator; known are {} and {}", options.suite, name, fmt::join(estimatorNames(), ", "), kOracle));
+      throw std::runtime_error(
+          fmt::format("{}: estimators: '{}' is no estimator; known are {} and {}", options.suite, name, fmt::join(estimatorNames(), ", "), kOracle));
   makeFolder(options.out);
   const double runs = static_cast<double>(campaign.laws.size()) * campaign.runs;
   std::vector<RunResult> results;

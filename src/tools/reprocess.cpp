@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // reprocess IN.bag...: estimators over recorded bags.
+#include "sas_motion/bag/reprocess.hpp"
+
 #include <fmt/format.h>
 
 #include <atomic>
@@ -16,7 +18,6 @@
 #include "main_guard.hpp"
 #include "progress.hpp"
 #include "sas_motion/bag/bag_file.hpp"
-#include "sas_motion/bag/reprocess.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace {
@@ -53,15 +54,14 @@ json toJson(const ReprocessReport& report) {
   for (const auto& [name, counts] : report.sensors)
     entry["sensors"][name] = {{"messages", counts.messages}, {"unknown_frame", counts.unknown_frame}, {"unusable", counts.unusable}, {"lost", counts.lost}};
   for (const auto& [name, e] : report.estimators)
-    entry["results"][name] = {{"estimates", e.estimates}, {"accepted", e.verdicts[0]}, {"down_weighted", e.verdicts[1]}, {"rejected", e.verdicts[2]},
-                              {"stale", e.verdicts[3]}, {"invalid", e.verdicts[4]}};
+    entry["results"][name] = {{"estimates", e.estimates},  {"accepted", e.verdicts[0]}, {"down_weighted", e.verdicts[1]},
+                              {"rejected", e.verdicts[2]}, {"stale", e.verdicts[3]},    {"invalid", e.verdicts[4]}};
   return entry;
 }
 
 json costOf(const ReprocessReport& report) {
   json cost;
-  for (const auto& [name, e] : report.estimators)
-    cost[name] = {{"seconds", e.seconds}, {"measurements", e.measurements}, {"duration", report.duration}};
+  for (const auto& [name, e] : report.estimators) cost[name] = {{"seconds", e.seconds}, {"measurements", e.measurements}, {"duration", report.duration}};
   return cost;
 }
 
@@ -147,7 +147,8 @@ void run(const Options& options) {
           const std::lock_guard<std::mutex> lock(mutex);
           if (options.resume && manifest.has(name, id) && std::filesystem::exists(options.out + "/" + name)) continue;
         }
-        const auto report = readBag(bag, [&] { return reprocess(bag, options.out, options.estimators, settings, [&](double seconds) { progress.advance(seconds); }); });
+        const auto report =
+            readBag(bag, [&] { return reprocess(bag, options.out, options.estimators, settings, [&](double seconds) { progress.advance(seconds); }); });
         json entry = toJson(report);
         entry["identity"] = id;
         const std::lock_guard<std::mutex> lock(mutex);
@@ -171,7 +172,8 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Runs estimators over recorded bags: each IN.bag to OUT_DIR/IN.bag with estimates and audit, a TUM file an estimator, manifest.json.", "reprocess");
+  CLI::App app("Runs estimators over recorded bags: each IN.bag to OUT_DIR/IN.bag with estimates and audit, a TUM file an estimator, manifest.json.",
+               "reprocess");
   app.add_option("BAG", options.bags, "bags to read")->required();
   app.add_option("-o,--output", options.out, "folder for the results (default: reprocessed)");
   app.add_option("--estimators", options.estimators, "names, comma-separated (default: kf,robust_kf)")->delimiter(',');

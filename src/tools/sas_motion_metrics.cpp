@@ -22,8 +22,8 @@ using namespace sas_motion::ros_side;
 using namespace sas_motion::towfish;
 using nlohmann::json;
 
-constexpr std::size_t kMostPoints = 6000;   // of one plotted series
-constexpr double kShortestOutage = 30;      // a gap between fixes that is reported as an outage [s]
+constexpr std::size_t kMostPoints = 6000;  // of one plotted series
+constexpr double kShortestOutage = 30;     // a gap between fixes that is reported as an outage [s]
 
 struct Options {
   std::string bag, out;
@@ -90,8 +90,8 @@ class Judge {
 
  private:
   json describe(const Scores& s, const std::vector<Outage>& gaps, const json& cost) const {
-    json m{{"samples", s.samples}, {"diverged", s.diverged}, {"drift_percent", 100 * s.drift}, {"nees", json::object()}, {"nis", json::object()},
-           {"outliers", json::object()}, {"outages", json::array()}, {"cost", cost}};
+    json m{{"samples", s.samples},  {"diverged", s.diverged},     {"drift_percent", 100 * s.drift}, {"nees", json::object()},
+           {"nis", json::object()}, {"outliers", json::object()}, {"outages", json::array()},       {"cost", cost}};
     for (int i = 0; i < kGroups; ++i) {
       const auto group = static_cast<Group>(i);
       const bool angle = group == kHeadingGroup;
@@ -99,8 +99,8 @@ class Judge {
       if (s.nees[group]) m["nees"][groupName(group)] = toJson(*s.nees[group]);
     }
     const ApertureError& a = s.aperture;
-    m["aperture"] = {{"time", a.time}, {"wavelength", a.wavelength}, {"windows", a.windows}, {"across", a.across}, {"along", a.along},
-                     {"across_wavelengths", a.across / a.wavelength}};
+    m["aperture"] = {{"time", a.time},     {"wavelength", a.wavelength}, {"windows", a.windows},
+                     {"across", a.across}, {"along", a.along},           {"across_wavelengths", a.across / a.wavelength}};
     Detection all;
     for (int i = 0; i < kSensors; ++i) {
       const char* name = sensorName(static_cast<Sensor>(i));
@@ -114,9 +114,13 @@ class Judge {
     }
     if (recording_.labelled()) m["outliers"]["all"] = toJson(all);
     for (const auto& gap : gaps)
-      m["outages"].push_back({{"begin", gap.begin}, {"duration", gap.duration}, {"distance", gap.distance}, {"error_end", gap.error_end},
+      m["outages"].push_back({{"begin", gap.begin},
+                              {"duration", gap.duration},
+                              {"distance", gap.distance},
+                              {"error_end", gap.error_end},
                               {"drift_percent", 100 * gap.error_end / gap.distance}});
-    m["verdicts"] = {{"accepted", s.verdicts[0]}, {"down_weighted", s.verdicts[1]}, {"rejected", s.verdicts[2]}, {"stale", s.verdicts[3]}, {"invalid", s.verdicts[4]}};
+    m["verdicts"] = {
+        {"accepted", s.verdicts[0]}, {"down_weighted", s.verdicts[1]}, {"rejected", s.verdicts[2]}, {"stale", s.verdicts[3]}, {"invalid", s.verdicts[4]}};
     return m;
   }
 
@@ -146,14 +150,16 @@ class Series {
 };
 
 json seriesOf(const Recording& recording, const RecordedEstimator& estimator) {
-  Series states({"t", "north", "east", "error_north", "sigma_north", "error_east", "sigma_east", "error_heading_deg", "sigma_heading_deg"}, estimator.estimates.size());
+  Series states({"t", "north", "east", "error_north", "sigma_north", "error_east", "sigma_east", "error_heading_deg", "sigma_heading_deg"},
+                estimator.estimates.size());
   for (const auto& estimate : estimator.estimates) {
     const auto truth = recording.truthAt(estimate.stamp);
     if (!truth) continue;
     const StateVector error = Model::difference(estimate.belief.mean, truth->state);
     const auto& P = estimate.belief.covariance;
-    states.add({secondsBetween(recording.begin, estimate.stamp), estimate.belief.mean(kNorth), estimate.belief.mean(kEast), error(kNorth), std::sqrt(P(kNorth, kNorth)),
-                error(kEast), std::sqrt(P(kEast, kEast)), truth->heading_known ? error(kHeading) / kRadPerDeg : 0, std::sqrt(P(kHeading, kHeading)) / kRadPerDeg});
+    states.add({secondsBetween(recording.begin, estimate.stamp), estimate.belief.mean(kNorth), estimate.belief.mean(kEast), error(kNorth),
+                std::sqrt(P(kNorth, kNorth)), error(kEast), std::sqrt(P(kEast, kEast)), truth->heading_known ? error(kHeading) / kRadPerDeg : 0,
+                std::sqrt(P(kHeading, kHeading)) / kRadPerDeg});
   }
   json all = states.columns();
   for (int i = 0; i < kSensors; ++i) {
@@ -204,8 +210,12 @@ void run(const Options& options) {
   double distance = 0;
   for (std::size_t i = 1; i < recording.truth.size(); ++i)
     distance += (recording.truth[i].reference.state - recording.truth[i - 1].reference.state).head<2>().norm();
-  json metrics{{"schema", "sas_motion/metrics/1"}, {"bag", std::filesystem::path(options.bag).filename().string()}, {"truth", recording.truth_topic},
-               {"duration", secondsBetween(recording.begin, recording.end)}, {"distance", distance}, {"skipped", options.skip}};
+  json metrics{{"schema", "sas_motion/metrics/1"},
+               {"bag", std::filesystem::path(options.bag).filename().string()},
+               {"truth", recording.truth_topic},
+               {"duration", secondsBetween(recording.begin, recording.end)},
+               {"distance", distance},
+               {"skipped", options.skip}};
   for (const auto& [name, estimator] : recording.estimators) metrics["estimators"][name] = judge.metrics(name, estimator, costOf(options.bag, name));
   writeFile(options.out + "/series.json", seriesOf(recording).dump());
   writeFile(options.out + "/metrics.json", metrics.dump(2) + "\n");
@@ -215,7 +225,8 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Scores the estimates in a bag against its truth: metrics.json, series.json and TUM files. evaluate.py adds table and report.", "sas_motion_metrics");
+  CLI::App app("Scores the estimates in a bag against its truth: metrics.json, series.json and TUM files. evaluate.py adds table and report.",
+               "sas_motion_metrics");
   app.add_option("BAG", options.bag, "bag with truth and estimates")->required();
   app.add_option("-o,--output", options.out, "folder for the results")->required();
   app.add_option("--skip", options.skip, "seconds at the start that are not scored (default 20)")->check(CLI::NonNegativeNumber);

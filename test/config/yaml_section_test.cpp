@@ -54,19 +54,19 @@ TEST(YamlSection, ReadsWhatIsThereAndKeepsTheRest) {
   EXPECT_NEAR(angle, 3.14159265358979, 1e-12);
 }
 
-TEST(YamlSection, AnUnknownKeyIsNamedWithTheKnownOnes) {
-  expectNames(messageOf("{gain: 1, gian: 2}", readNumber), {"settings.yaml", "gian", "gain"});
-}
+TEST(YamlSection, AnUnknownKeyIsNamedWithTheKnownOnes) { expectNames(messageOf("{gain: 1, gian: 2}", readNumber), {"settings.yaml", "gian", "gain"}); }
 
 TEST(YamlSection, OutOfRangeNamesFileKeyValueAndBound) {
   expectNames(messageOf("{gain: 11.5}", readNumber), {"settings.yaml", "gain", "11.5", "10"});
   expectNames(messageOf("{gain: -1}", readNumber), {"settings.yaml", "gain", "-1", "0"});
   expectNames(messageOf("{gain: .nan}", readNumber), {"settings.yaml", "gain", "nan"});
   expectNames(messageOf("{gain: .inf}", readNumber), {"settings.yaml", "gain", "inf"});
-  expectNames(messageOf("{count: 99}", [](YamlSection& yaml) {
-                int count = 0;
-                yaml.integer("count", count, 1, 20);
-              }), {"settings.yaml", "count", "99", "20"});
+  expectNames(messageOf("{count: 99}",
+                        [](YamlSection& yaml) {
+                          int count = 0;
+                          yaml.integer("count", count, 1, 20);
+                        }),
+              {"settings.yaml", "count", "99", "20"});
 }
 
 TEST(YamlSection, NotANumberNamesFileAndKey) {
@@ -75,14 +75,18 @@ TEST(YamlSection, NotANumberNamesFileAndKey) {
 }
 
 TEST(YamlSection, NestedKeysAreNamedWithTheirPath) {
-  expectNames(messageOf("{filter: {inner: {gain: 99}}}", [](YamlSection& yaml) {
-                auto filter = yaml.section("filter");
-                auto inner = filter.section("inner");
-                readNumber(inner);
-              }), {"settings.yaml", "filter.inner.gain", "99"});
-  expectNames(messageOf("{laws: [{gain: 1}, {gain: 99}]}", [](YamlSection& yaml) {
-                for (auto& law : yaml.list("laws")) readNumber(law);
-              }), {"laws[1].gain"});
+  expectNames(messageOf("{filter: {inner: {gain: 99}}}",
+                        [](YamlSection& yaml) {
+                          auto filter = yaml.section("filter");
+                          auto inner = filter.section("inner");
+                          readNumber(inner);
+                        }),
+              {"settings.yaml", "filter.inner.gain", "99"});
+  expectNames(messageOf("{laws: [{gain: 1}, {gain: 99}]}",
+                        [](YamlSection& yaml) {
+                          for (auto& law : yaml.list("laws")) readNumber(law);
+                        }),
+              {"laws[1].gain"});
 }
 
 TEST(YamlSection, WrongShapesAreConfigErrorsToo) {
@@ -95,10 +99,12 @@ TEST(YamlSection, WrongShapesAreConfigErrorsToo) {
   expectNames(messageOf("[1, 2]", [](YamlSection&) {}), {"settings.yaml"});
   expectNames(messageOf("{a: [", [](YamlSection&) {}), {"settings.yaml"});
   expectNames(messageOf("{? [a, b] : 1}", [](YamlSection&) {}), {"settings.yaml"});
-  expectNames(messageOf("{pair: [1, x]}", [](YamlSection& yaml) {
-                std::vector<double> values;
-                yaml.numbers("pair", values, 2);
-              }), {"settings.yaml", "pair"});
+  expectNames(messageOf("{pair: [1, x]}",
+                        [](YamlSection& yaml) {
+                          std::vector<double> values;
+                          yaml.numbers("pair", values, 2);
+                        }),
+              {"settings.yaml", "pair"});
 }
 
 TEST(YamlSection, AFileThatCannotBeReadIsNamed) {

@@ -56,7 +56,7 @@ TEST(Scores, PrecisionAndRecallCountByHand) {
   scorer.add(audit(Verdict::Accepted, 0.9), true);       // missed
   scorer.add(audit(Verdict::DownWeighted, 0.4), false);  // false alarm
   scorer.add(audit(Verdict::Accepted, 1.0), false);
-  scorer.add(audit(Verdict::Stale, 0), true);            // never fused: not counted
+  scorer.add(audit(Verdict::Stale, 0), true);  // never fused: not counted
   scorer.add(audit(Verdict::Invalid, 0), false);
   scorer.add(audit(Verdict::Accepted, 1.0), std::nullopt);
   const Detection detection = scorer.scores().detection[0];

@@ -99,9 +99,7 @@ TEST(ReacquiringFilter, BrokenMeasurementsChangeNothing) {
   EXPECT_EQ(belief.state.mean, Gaussian<6>().mean);
 }
 
-TEST(ReacquiringFilter, RefusesAResetAfterNoTime) {
-  EXPECT_THROW(Gated(GatedKalmanFilter<6>({}), 0), std::invalid_argument);
-}
+TEST(ReacquiringFilter, RefusesAResetAfterNoTime) { EXPECT_THROW(Gated(GatedKalmanFilter<6>({}), 0), std::invalid_argument); }
 
 }  // namespace
 }  // namespace sas_motion

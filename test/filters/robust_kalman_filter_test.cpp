@@ -17,8 +17,7 @@ RobustKalmanFilter<6>::Options options(const Loss& loss, int iterations = 500, b
 /// (15), with rho1 the same loss or, without process weights, r^2 / 2.
 class Objective {
  public:
-  Objective(const Gaussian<6>& prior, const LinearMeasurement<6, 4>& z, const Loss& loss, bool process)
-      : prior_(prior), z_(z), loss_(loss), process_(process) {
+  Objective(const Gaussian<6>& prior, const LinearMeasurement<6, 4>& z, const Loss& loss, bool process) : prior_(prior), z_(z), loss_(loss), process_(process) {
     root_ = Eigen::SelfAdjointEigenSolver<Matrix<6>>(prior.covariance).operatorInverseSqrt();
   }
   double operator()(const Vector<6>& x) const {

@@ -23,9 +23,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return ab / std::sqrt(aa * bb);
 }
 
-TEST(Random, TheSameSeedGivesTheSameNumbers) {
-  EXPECT_EQ(draws(Random(7, 3), 1000), draws(Random(7, 3), 1000));
-}
+TEST(Random, TheSameSeedGivesTheSameNumbers) { EXPECT_EQ(draws(Random(7, 3), 1000), draws(Random(7, 3), 1000)); }
 
 TEST(Random, SeedsAndStreamsAreIndependent) {
   const int count = 20000;

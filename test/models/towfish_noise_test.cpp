@@ -67,8 +67,7 @@ TEST(TowfishNoise, TwoStepsAddUpToOneOfTwiceTheLength) {
     const auto one = model.transition(x, {}, T), two = model.transition(x, {}, 2 * T);
     const StateMatrix sum = one.F * one.Q * one.F.transpose() + one.Q;  // without a turn rate F does not change
     for (int i = 0; i < kStates; ++i)
-      for (int j = 0; j < kStates; ++j)
-        EXPECT_NEAR(two.Q(i, j), sum(i, j), 1e-8 * std::sqrt(sum(i, i) * sum(j, j))) << T << " s, " << i << ", " << j;
+      for (int j = 0; j < kStates; ++j) EXPECT_NEAR(two.Q(i, j), sum(i, j), 1e-8 * std::sqrt(sum(i, i) * sum(j, j))) << T << " s, " << i << ", " << j;
   }
 }
 

@@ -57,11 +57,13 @@ TEST(TowfishModel, MeasurementJacobiansMatchCentralDifferences) {
         for (int col = 0; col < kStates; ++col) {
           const StateVector e = h * StateVector::Unit(col);
           using Rows = std::decay_t<decltype(linear.innovation)>;
-          const auto innovation = [&](const StateVector& at) { return model.linearize(z, at, [](const auto& l) -> Vector<2> {
-            Vector<2> rows = Vector<2>::Zero();
-            rows.head(l.innovation.rows()) = l.innovation;
-            return rows;
-          }); };
+          const auto innovation = [&](const StateVector& at) {
+            return model.linearize(z, at, [](const auto& l) -> Vector<2> {
+              Vector<2> rows = Vector<2>::Zero();
+              rows.head(l.innovation.rows()) = l.innovation;
+              return rows;
+            });
+          };
           const Vector<2> slope = -(innovation(x + e) - innovation(x - e)) / (2 * h);  // of h = z - innovation
           EXPECT_LT((slope.head<Rows::RowsAtCompileTime>() - linear.H.col(col)).cwiseAbs().maxCoeff(), 1e-6) << sensorName(sensor) << " " << col;
         }

@@ -30,9 +30,7 @@ TEST_P(Datum, RoundTripsToAMillimetreOverTenKilometres) {
   }
 }
 
-TEST_P(Datum, LiesAtTheOrigin) {
-  EXPECT_LT(LocalFrame(GetParam()).position_enu(GetParam()).norm(), 1e-6);
-}
+TEST_P(Datum, LiesAtTheOrigin) { EXPECT_LT(LocalFrame(GetParam()).position_enu(GetParam()).norm(), 1e-6); }
 
 TEST_P(Datum, EastIsFirstNorthSecondUpThird) {
   const LocalFrame frame(GetParam());
@@ -56,7 +54,8 @@ TEST(LocalFrame, ADegreeOfLongitudeShrinksWithTheCosineOfLatitude) {
 
 TEST(LocalFrame, RefusesADatumThatIsNoPlaceOnEarth) {
   const double nan = std::nan("");
-  for (const Geodetic& bad : {Geodetic{91, 0, 0}, Geodetic{-90.01, 0, 0}, Geodetic{nan, 0, 0}, Geodetic{0, nan, 0}, Geodetic{0, HUGE_VAL, 0}, Geodetic{0, 0, nan}})
+  for (const Geodetic& bad :
+       {Geodetic{91, 0, 0}, Geodetic{-90.01, 0, 0}, Geodetic{nan, 0, 0}, Geodetic{0, nan, 0}, Geodetic{0, HUGE_VAL, 0}, Geodetic{0, 0, nan}})
     EXPECT_THROW(LocalFrame{bad}, std::invalid_argument) << bad.latitude_deg << " " << bad.longitude_deg << " " << bad.altitude;
 }
 

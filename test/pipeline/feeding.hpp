@@ -45,8 +45,6 @@ inline void expectRisingStamps(const towfish::Output& output) {
   for (std::size_t i = 1; i < output.estimates.size(); ++i) ASSERT_GT(output.estimates[i].stamp, output.estimates[i - 1].stamp) << "estimate " << i;
 }
 
-inline double positionError(const towfish::Estimate& estimate, const Run& run) {
-  return (estimate.belief.mean - run.truthAt(estimate.stamp)).head<2>().norm();
-}
+inline double positionError(const towfish::Estimate& estimate, const Run& run) { return (estimate.belief.mean - run.truthAt(estimate.stamp)).head<2>().norm(); }
 
 }  // namespace sas_motion::testing

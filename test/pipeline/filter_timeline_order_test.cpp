@@ -77,7 +77,8 @@ TEST(Order, OlderThanTheLagIsStaleAndChangesNothing) {
   std::size_t held_back = 0;
   std::vector<Measurement> waiting;
   for (const auto& z : measurements) {
-    const bool hold = z.sensor == Sensor::Position && secondsBetween(Simulator::kStart, z.stamp) > 20 && z.stamp % (3 * kNanosecondsPerSecond) < kNanosecondsPerSecond;
+    const bool hold =
+        z.sensor == Sensor::Position && secondsBetween(Simulator::kStart, z.stamp) > 20 && z.stamp % (3 * kNanosecondsPerSecond) < kNanosecondsPerSecond;
     if (hold) {
       waiting.push_back(z);
       ++held_back;

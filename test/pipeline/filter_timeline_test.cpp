@@ -44,8 +44,8 @@ TEST(FilterTimeline, AnswersBetweenMeasurementsByTheModel) {
   EXPECT_GT(between->belief.covariance(kNorth, kNorth), before->belief.covariance(kNorth, kNorth));
   EXPECT_EQ(estimator->at(at(10))->belief.mean, estimator->current()->belief.mean);
   EXPECT_EQ(estimator->current()->stamp, at(10));
-  EXPECT_TRUE(estimator->at(at(12)));          // after the newest
-  EXPECT_FALSE(estimator->at(at(1)));          // settled long ago
+  EXPECT_TRUE(estimator->at(at(12)));  // after the newest
+  EXPECT_FALSE(estimator->at(at(1)));  // settled long ago
   EXPECT_FALSE(estimator->at(at(-10)));
 }
 

@@ -10,7 +10,7 @@ from ros_session import run_to_end
 
 FILTERS = ["kf", "robust_kf", "mixture_kf"]
 LIVE = [*FILTERS, "fixed_lag"]
-RATE = 30
+RATE = 10  # much faster, and rosbag record, which keeps 100 messages of a topic, may lose some on a busy machine
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +98,7 @@ def test_diagnostics_tell_latency_and_verdicts(diagnostics, offline):
 def test_the_present_answer_reaches_the_end_of_the_data(recording, offline):
     for name in LIVE:
         present, settled = (toolbox.estimates(recording, f"{name}/{leaf}") for leaf in ("odometry", "settled"))
-        assert max(present) == max(settled) and len(present) > 1000, name
+        assert max(present) == max(settled) and len(present) > 500, name
 
 
 def test_the_recording_can_be_scored(recording, tmp_path):

@@ -21,8 +21,8 @@ struct ReprocessReport {
     std::uint64_t estimates = 0;
     std::array<std::uint64_t, 5> verdicts{};  ///< by Verdict
     std::uint64_t measurements = 0;
-    std::string failure;                      ///< of a smoother's solver, in plain words
-    double seconds = 0;                       ///< CPU time of the estimator alone
+    std::string failure;  ///< of a smoother's solver, in plain words
+    double seconds = 0;   ///< CPU time of the estimator alone
   };
   std::map<std::string, PerEstimator> estimators;
 };

@@ -19,10 +19,10 @@ namespace sas_motion::towfish {
 
 /// How a sensor's messages are taken.
 struct SensorOptions {
-  double sigma = 1;              ///< standard deviation where the message has none [m, rad, m/s, rad/s]
-  double floor = 0;              ///< the smallest standard deviation believed of a message [same unit]
-  bool override_message = false; ///< use sigma whatever the message says
-  double time_offset = 0;        ///< added to the message's stamp [s]
+  double sigma = 1;               ///< standard deviation where the message has none [m, rad, m/s, rad/s]
+  double floor = 0;               ///< the smallest standard deviation believed of a message [same unit]
+  bool override_message = false;  ///< use sigma whatever the message says
+  double time_offset = 0;         ///< added to the message's stamp [s]
   bool enabled = true;
 };
 
@@ -31,9 +31,9 @@ struct Config {
   MotionParameters model;
   std::array<SensorOptions, kSensors> sensors{};  ///< by Sensor
   StartOptions start;
-  double lag = 5;                ///< late measurements are fused at their own time up to this age [s]
-  double reset_after = 20;       ///< a row disbelieved for longer, with readings that agree, is believed again by robust filters [s]
-  double input_hold = 1;         ///< a turn rate is believed this long [s]
+  double lag = 5;                            ///< late measurements are fused at their own time up to this age [s]
+  double reset_after = 20;                   ///< a row disbelieved for longer, with readings that agree, is believed again by robust filters [s]
+  double input_hold = 1;                     ///< a turn rate is believed this long [s]
   double turn_rate_limit = 30 * kRadPerDeg;  ///< a faster turn rate is invalid [rad/s]
 
   RobustKalmanFilter<kStates>::Options robust_kf;

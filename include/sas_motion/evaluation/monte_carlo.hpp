@@ -37,7 +37,7 @@ struct RunResult {
   std::string law, estimator;
   std::uint64_t seed = 0;
   Scores scores;
-  double seconds = 0;          ///< CPU time
+  double seconds = 0;  ///< CPU time
   std::size_t measurements = 0;
 };
 

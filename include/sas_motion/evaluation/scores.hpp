@@ -48,9 +48,9 @@ struct ApertureError {
 
 /// The synthetic aperture sonar that the aperture error is meant for: T_a = range wavelength / (element speed).
 struct ApertureOptions {
-  double range = 100;        ///< slant range r0 [m]
-  double wavelength = 0.015; ///< [m]
-  double element = 0.1;      ///< length of the array element D [m]
+  double range = 100;         ///< slant range r0 [m]
+  double wavelength = 0.015;  ///< [m]
+  double element = 0.1;       ///< length of the array element D [m]
 };
 
 /// The state groups that are scored on their own.
@@ -59,14 +59,14 @@ const char* groupName(Group group);
 
 struct Scores {
   std::size_t samples = 0;
-  bool diverged = false;  ///< not finite
-  std::array<std::optional<ErrorSummary>, kGroups> error;     ///< [m, rad, m/s, m/s]
+  bool diverged = false;                                   ///< not finite
+  std::array<std::optional<ErrorSummary>, kGroups> error;  ///< [m, rad, m/s, m/s]
   std::array<std::optional<Consistency>, kGroups> nees;
-  std::optional<Consistency> nees_full;                       ///< all six states
+  std::optional<Consistency> nees_full;  ///< all six states
   std::array<std::optional<Consistency>, kSensors> nis;
   std::array<Detection, kSensors> detection;
-  std::array<std::size_t, 5> verdicts{};                      ///< by Verdict
-  double distance = 0, drift = 0;                             ///< travelled [m]; error at the end over it [-]
+  std::array<std::size_t, 5> verdicts{};  ///< by Verdict
+  double distance = 0, drift = 0;         ///< travelled [m]; error at the end over it [-]
   ApertureError aperture;
 };
 

@@ -58,8 +58,7 @@ struct Projection {
 /// x^+ and P^+ = (I - K H) P (I - K H)^T + K R K^T (Joseph) for S = H P H^T + R, written as rank-M updates of P so that no N x N
 /// product is formed.
 template <int N, int M>
-Gaussian<N> condition(const Gaussian<N>& prior, const Projection<N, M>& projection, const Matrix<M>& R, const Innovation<M>& S,
-                      const Vector<M>& innovation) {
+Gaussian<N> condition(const Gaussian<N>& prior, const Projection<N, M>& projection, const Matrix<M>& R, const Innovation<M>& S, const Vector<M>& innovation) {
   const Matrix<N, M> K = S.solve(projection.PHt.transpose()).transpose();
   Gaussian<N> posterior;
   posterior.mean.noalias() = prior.mean + K * innovation;

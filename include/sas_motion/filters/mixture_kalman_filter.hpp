@@ -21,7 +21,7 @@ class MixtureKalmanFilter {
   static constexpr int kScales = 4;
 
   struct Options {
-    std::array<double, kScales> scales{1, 9, 100, 2500};              ///< s_j: variance over R [-]
+    std::array<double, kScales> scales{1, 9, 100, 2500};                ///< s_j: variance over R [-]
     std::array<double, kScales> probabilities{0.85, 0.05, 0.05, 0.05};  ///< p_j, taken relative to their sum [-]
   };
 

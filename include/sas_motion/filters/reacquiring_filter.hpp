@@ -12,9 +12,9 @@ namespace sas_motion {
 
 /// How long a row of a sensor has not been believed, and whether what it says agrees with itself.
 struct Disbelief {
-  int count = 0;               ///< readings running that were down-weighted or rejected
-  int agreements = 0;          ///< of them, how many agreed with the one before
-  double since = 0;            ///< time of the first [s]
+  int count = 0;       ///< readings running that were down-weighted or rejected
+  int agreements = 0;  ///< of them, how many agreed with the one before
+  double since = 0;    ///< time of the first [s]
   double last_innovation = 0;
 };
 
@@ -47,9 +47,7 @@ class ReacquiringFilter {
     if (!(reset_after > 0)) throw std::invalid_argument("reset_after is " + std::to_string(reset_after) + " but must be positive");
   }
 
-  Belief predict(const Belief& belief, const Transition<N>& transition) const {
-    return {filter_.predict(belief.state, transition), belief.disbelief};
-  }
+  Belief predict(const Belief& belief, const Transition<N>& transition) const { return {filter_.predict(belief.state, transition), belief.disbelief}; }
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const {

@@ -18,10 +18,10 @@ class RobustKalmanFilter {
   using Belief = Gaussian<N>;
 
   struct Options {
-    Loss loss{LossKind::Huber};       ///< rho2, on measurements whitened by R
-    int max_iterations = 10;          ///< 1 is the paper's single pass
-    double tolerance = 1e-6;          ///< fixed point: no weight moves more [-]
-    bool robustify_process = false;   ///< let W1 act, with the same loss
+    Loss loss{LossKind::Huber};      ///< rho2, on measurements whitened by R
+    int max_iterations = 10;         ///< 1 is the paper's single pass
+    double tolerance = 1e-6;         ///< fixed point: no weight moves more [-]
+    bool robustify_process = false;  ///< let W1 act, with the same loss
   };
 
   /// Throws std::invalid_argument where max_iterations < 1 or tolerance is not positive.

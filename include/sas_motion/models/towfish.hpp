@@ -33,27 +33,25 @@ struct Measurement {
   Stamp stamp = 0;
   Sensor sensor = Sensor::Position;
   Vector<2> value = Vector<2>::Zero();
-  Vector<2> variance = Vector<2>::Ones();          ///< of the good noise, a row each
+  Vector<2> variance = Vector<2>::Ones();        ///< of the good noise, a row each
   Vector<2> lever_arm_body = Vector<2>::Zero();  ///< position only: antenna from the reference point, forward and starboard [m]
 };
 
 /// The order of fusion: by time, then by sensor.
-inline bool before(const Measurement& a, const Measurement& b) {
-  return a.stamp != b.stamp ? a.stamp < b.stamp : a.sensor < b.sensor;
-}
+inline bool before(const Measurement& a, const Measurement& b) { return a.stamp != b.stamp ? a.stamp < b.stamp : a.sensor < b.sensor; }
 
 /// What is known of the motion between two measurements.
 struct Input {
-  double turn_rate = 0;     ///< clockwise [rad/s]
+  double turn_rate = 0;  ///< clockwise [rad/s]
 };
 
 /// The motion's noise and the current's law.
 struct MotionParameters {
-  double current_sigma = 0.5;            ///< standard deviation of each current component [m/s]
-  double current_time_constant = 3600;   ///< 1 / beta: correlation time of the current [s]
+  double current_sigma = 0.5;               ///< standard deviation of each current component [m/s]
+  double current_time_constant = 3600;      ///< 1 / beta: correlation time of the current [s]
   double heading_noise = 0.5 * kRadPerDeg;  ///< random walk of the heading [rad/sqrt(s)]
-  double speed_noise = 0.05;             ///< random walk of the speed [m/s/sqrt(s)]
-  double position_noise = 0.01;          ///< random walk of the position: what the model leaves out [m/sqrt(s)]
+  double speed_noise = 0.05;                ///< random walk of the speed [m/s/sqrt(s)]
+  double position_noise = 0.01;             ///< random walk of the position: what the model leaves out [m/sqrt(s)]
 };
 
 /// The motion and sensor model, written once: filters, smoothers, factors and the simulator use this object.

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "sas_motion/config/towfish_config.hpp"
 #include "sas_motion/filters/update.hpp"
 #include "sas_motion/models/towfish.hpp"
-#include "sas_motion/config/towfish_config.hpp"
 
 namespace sas_motion::towfish {
 

@@ -47,11 +47,11 @@ class FilterTimeline final : public Estimator {
   Filter filter_;
   Config config_;
   Model model_;
-  std::deque<Entry> entries_;      // sorted by before()
-  std::optional<Moment> anchor_;   // the state before the first entry
-  std::optional<Stamp> settled_;   // nothing at or before this stamp can change
-  Stamp start_stamp_ = 0;          // measurements up to here decided the start
-  bool start_settled_ = false;     // the start itself can no longer change
+  std::deque<Entry> entries_;     // sorted by before()
+  std::optional<Moment> anchor_;  // the state before the first entry
+  std::optional<Stamp> settled_;  // nothing at or before this stamp can change
+  Stamp start_stamp_ = 0;         // measurements up to here decided the start
+  bool start_settled_ = false;    // the start itself can no longer change
   int stale_in_a_row_ = 0;
 };
 

@@ -33,8 +33,7 @@ ros::Time timeOf(Stamp stamp);
 std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const LocalFrame& frame, const Transform& T_base_gnss,
                                         const towfish::Config& config);
 std::vector<Measurement> measurementsOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu, const towfish::Config& config);
-std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const Transform& T_base_dvl,
-                                        const towfish::Config& config);
+std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const Transform& T_base_dvl, const towfish::Config& config);
 
 /// True where a fix says where it is: has a fix, and coordinates on Earth.
 bool hasPosition(const sensor_msgs::NavSatFix& fix);

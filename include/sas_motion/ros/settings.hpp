@@ -19,8 +19,8 @@ struct Settings {
   std::string map_frame = "map";
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
-  double frame_timeout = 2;         ///< a message of a frame not yet known waits this long for its transform [s]
-  std::optional<Geodetic> datum;    ///< origin of the map frame; the first fix where there is none
+  double frame_timeout = 2;       ///< a message of a frame not yet known waits this long for its transform [s]
+  std::optional<Geodetic> datum;  ///< origin of the map frame; the first fix where there is none
 
   /// Throws ConfigError. An empty name gives the defaults.
   static Settings fromFile(const std::string& file);

@@ -49,7 +49,7 @@ class Simulator {
   std::vector<NoiseSource> process_;  // one a state
   std::vector<NoiseSource> sensor_;   // two rows a sensor
   Random current_noise_;
-  std::array<double, 3> phases_{};    // of the waves
+  std::array<double, 3> phases_{};  // of the waves
   Vector<2> current_ = Vector<2>::Zero();
   double course_ = 0, leg_time_ = 0, turned_ = 0;
   int turn_side_ = 1;

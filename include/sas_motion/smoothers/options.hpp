@@ -15,9 +15,9 @@ struct SmootherOptions {
 
 struct FixedLagOptions {
   Loss loss{LossKind::Huber};
-  double lag = 10;           ///< the window's length [s]
+  double lag = 10;              ///< the window's length [s]
   double solve_interval = 0.5;  ///< stamps between two solutions [s]
-  double reorder = 2;      ///< measurements wait this long for older ones [s]
+  double reorder = 2;           ///< measurements wait this long for older ones [s]
 };
 
 }  // namespace sas_motion

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "sas_motion/math/gaussian.hpp"
 #include "sas_motion/config/towfish_config.hpp"
+#include "sas_motion/math/gaussian.hpp"
 
 namespace sas_motion::towfish {
 
@@ -17,13 +17,13 @@ namespace sas_motion::towfish {
 /// with one rho for each scalar row. Q_k is frozen at the initial trajectory, so that all smoothers minimise the same function.
 struct SmoothingProblem {
   Model model;
-  Gaussian<kStates> prior;                 ///< of node 0, before its measurements
-  std::vector<Stamp> stamps;               ///< of each node
-  std::vector<Input> inputs;               ///< input on the way into each node; unused for node 0
-  std::vector<StateMatrix> Q;              ///< process noise on the way into each node; unused for node 0
-  std::vector<StateVector> initial;        ///< where iterations start
-  std::vector<Measurement> measurements;   ///< with rows, in time order
-  std::vector<std::size_t> first;          ///< node k has measurements first[k] to first[k + 1]; one more than there are nodes
+  Gaussian<kStates> prior;                ///< of node 0, before its measurements
+  std::vector<Stamp> stamps;              ///< of each node
+  std::vector<Input> inputs;              ///< input on the way into each node; unused for node 0
+  std::vector<StateMatrix> Q;             ///< process noise on the way into each node; unused for node 0
+  std::vector<StateVector> initial;       ///< where iterations start
+  std::vector<Measurement> measurements;  ///< with rows, in time order
+  std::vector<std::size_t> first;         ///< node k has measurements first[k] to first[k + 1]; one more than there are nodes
 
   std::size_t nodes() const { return stamps.size(); }
   double dt(std::size_t node) const { return secondsBetween(stamps[node - 1], stamps[node]); }

@@ -44,7 +44,8 @@ std::vector<StateVector> trajectoryOf(const gtsam::Values& values) {
   return trajectory;
 }
 
-void addMarginals(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values& values, gtsam::Marginals::Factorization factorization, SmootherResult& result) {
+void addMarginals(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values& values, gtsam::Marginals::Factorization factorization,
+                  SmootherResult& result) {
   const gtsam::Marginals marginals(graph, values, factorization);
   const auto trajectory = trajectoryOf(values);
   result.states.resize(trajectory.size());

@@ -91,9 +91,7 @@ struct FixedLagSmoother::Window {
     belief.mean = newest;
   }
 
-  Estimate estimate(const Node& node) const {
-    return {node.stamp, {smoother.calculateEstimate<StateVector>(node.key), smoother.marginalCovariance(node.key)}};
-  }
+  Estimate estimate(const Node& node) const { return {node.stamp, {smoother.calculateEstimate<StateVector>(node.key), smoother.marginalCovariance(node.key)}}; }
 
   Config config;
   Model model;
@@ -137,8 +135,8 @@ void FixedLagSmoother::release(Stamp until, Output& output) {
   while (!waiting_.empty() && waiting_.front().stamp <= until) {
     const Measurement z = waiting_.front();
     waiting_.pop_front();
-    const bool due = z.stamp > window_->nodes.back().stamp &&
-                     window_->nodes.back().stamp - window_->solved >= stampFromSeconds(config_.fixed_lag.solve_interval);
+    const bool due =
+        z.stamp > window_->nodes.back().stamp && window_->nodes.back().stamp - window_->solved >= stampFromSeconds(config_.fixed_lag.solve_interval);
     if (due) solve(output);  // the newest node is complete
     released_ = z.stamp;
     window_->add(z);

@@ -57,7 +57,8 @@ TEST(Gnc, TakesTheOutliersOutAndKeepsTheRest) {
     for (int row = 0; row < rowsOf(z.sensor); ++row) {
       const bool outlier = run.labelled[j].outlier[static_cast<std::size_t>(row)];
       const bool out = result.weights[j](row) < 0.5;
-      const double off = std::abs(Model::difference(StateVector::Constant((z.value - Model::expected(z, run.truthAt(z.stamp)))(row)), StateVector::Zero())(kHeading));
+      const double off =
+          std::abs(Model::difference(StateVector::Constant((z.value - Model::expected(z, run.truthAt(z.stamp)))(row)), StateVector::Zero())(kHeading));
       if (outlier && (z.sensor != Sensor::Heading || off < kPi) && off > 6 * std::sqrt(z.variance(row))) {
         ++large;
         caught += out;

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The sas_motion authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Measures what docs/results.md claims. usage: scripts/bench.sh; expects the devel space sourced. SMOKE=1: the smallest size.
+# Ratios are of runs side by side; quote those, not the times, of a shared machine.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+tools=$(catkin_find --first-only --libexec sas_motion)
+out=${OUT_DIR:-$root/bench}
+smoke=${SMOKE:-0}
+mkdir -p "$out"
+runs=100 nodes=100000 seconds=3600
+[ "$smoke" = 0 ] || { runs=1 nodes=1000 seconds=60; }
+
+echo "bench: accuracy ($runs seeds of 600 s)"
+"$tools/benchmark" "$root/config/suites/accuracy.yaml" -o "$out/accuracy" --runs "$runs" | tee "$out/accuracy.txt"
+echo; echo "bench: accuracy of the smoothers (a tenth of the seeds)"
+"$tools/benchmark" "$root/config/suites/smoothers.yaml" -o "$out/smoothers" --runs $(((runs + 9) / 10)) | tee "$out/smoothers.txt"
+echo; echo "bench: accuracy of the asynchronous survey ($runs seeds)"
+"$tools/benchmark" "$root/config/suites/survey.yaml" -o "$out/survey" --runs "$runs" | tee "$out/survey.txt"
+
+echo; echo "bench: predict and update of all four channels"
+"$tools/filter_speed" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_out="$out/filters.json" --benchmark_out_format=json >/dev/null 2>&1
+venv="$root/.venv"
+[ -x "$venv/bin/python" ] || /usr/bin/python3 -m venv "$venv"
+"$venv/bin/python" -c 'import filterpy' 2>/dev/null || "$venv/bin/pip" install --quiet filterpy==1.4.5 || echo "bench: filterpy could not be installed"
+"$venv/bin/python" "$root/benchmark/compare_filters.py" "$out/filters.json"
+
+echo; echo "bench: rts beside batch"
+"$tools/smoother_speed" "$nodes"
+
+echo; echo "bench: reprocess beside a bare pass over the bag, and memory against the bag's length"
+/usr/bin/python3 "$root/benchmark/bag_speed.py" "$tools" "$root/config/scenarios/lawnmower_hour.yaml" "$out" "$seconds"
+
+echo; echo "bench: nodelet, callback to publication at 100 messages a second"
+/usr/bin/python3 "$root/benchmark/nodelet_latency.py" "$tools" "$out" $((smoke == 1 ? 20 : 60))
