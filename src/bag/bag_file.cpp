@@ -21,27 +21,19 @@ std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
   return bag;
 }
 
-BagOutput::BagOutput(const std::string& path) : path_(path), file_(path), bag_(std::make_unique<rosbag::Bag>()) {
-  guarded([&] { bag_->open(file_.temporary(), rosbag::bagmode::Write); });
-}
+BagOutput::BagOutput(const std::string& path) : path_(path), file_(path), writer_(file_.temporary()) {}
 
 void BagOutput::copy(const rosbag::MessageInstance& message) {
-  message.size();  // reads it: a failure to read is none to write
-  guarded([&] { bag_->write(message.getTopic(), message.getTime(), message, message.getConnectionHeader()); });
+  guarded([&] { writer_.copy(message); });
 }
 
 void BagOutput::close() {
-  guarded([&] { bag_->close(); });
+  guarded([&] { writer_.close(); });
 }
 
 void BagOutput::commit() {
   close();
   file_.commit();
-}
-
-void BagOutput::abandon(const std::string& reason) {
-  static_cast<void>(bag_.release());  // its destructor would write again, and throw, which ends the process
-  throw std::runtime_error(fmt::format("{}: could not be written ({}); is the disk full?", path_, reason));
 }
 
 }  // namespace sas_motion::ros_side

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t kQueue = 1000;  // messages kept for a slow callback or subscriber
 // A whole recording at once would overrun its subscribers: rosbag record keeps 100 messages of a topic for its threads.
-constexpr std::size_t kBurst = 10;      // messages of a topic published at once before a pause
-constexpr double kPause = 0.02;         // [s]
+constexpr std::size_t kBurst = 25;      // messages of a topic published at once before a pause
+constexpr double kPause = 0.05;         // [s]
 
 geometry_msgs::TransformStamped mapToOdom(const Settings& settings, ros::Time stamp) {
   geometry_msgs::TransformStamped T;
@@ -224,11 +224,11 @@ bool EstimatorServer::onSolveBatch(std_srvs::Trigger::Request&, std_srvs::Trigge
   settleAll();
   const ros::WallTime begin = ros::WallTime::now();
   batch_->estimator->finish(output_);
+  const double seconds = (ros::WallTime::now() - begin).toSec();
   const std::size_t states = output_.estimates.size();
   publishSettled(*batch_);
   response.success = states > 0;
-  response.message =
-      states > 0 ? fmt::format("{} states in {:.2f} s", states, (ros::WallTime::now() - begin).toSec()) : "nothing solved: " + batch_->estimator->failure();
+  response.message = states > 0 ? fmt::format("{} states in {:.2f} s", states, seconds) : "nothing solved: " + batch_->estimator->failure();
   return true;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sas_motion/bag/bag_writer.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 
 namespace sas_motion::ros_side {
@@ -37,12 +38,12 @@ class BagOutput {
 
   template <class Message>
   void write(const std::string& topic, ros::Time time, const Message& message) {
-    guarded([&] { bag_->write(topic, time, message); });
+    guarded([&] { writer_.write(topic, time, message); });
   }
   /// As a latched topic, so that late subscribers to a played bag still get it.
   template <class Message>
   void writeLatched(const std::string& topic, ros::Time time, const Message& message) {
-    guarded([&] { bag_->write(topic, time, message, latchedHeader<Message>()); });
+    guarded([&] { writer_.write(topic, time, message, true); });
   }
   /// A message of another bag, as it is there.
   void copy(const rosbag::MessageInstance& message);
@@ -56,26 +57,16 @@ class BagOutput {
   void guarded(const Action& action) {
     try {
       action();
-    } catch (const rosbag::BagException& error) {
-      abandon(error.what());
+    } catch (const ros::Exception&) {
+      throw;  // of the bag that is read
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("{}: could not be written ({}); is the disk full?", path_, error.what()));
     }
-  }
-  [[noreturn]] void abandon(const std::string& reason);
-
-  template <class Message>
-  static boost::shared_ptr<ros::M_string> latchedHeader() {
-    auto header = boost::make_shared<ros::M_string>();
-    (*header)["latching"] = "1";
-    (*header)["callerid"] = "/sas_motion";
-    (*header)["type"] = ros::message_traits::datatype<Message>();
-    (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
-    (*header)["message_definition"] = ros::message_traits::definition<Message>();
-    return header;
   }
 
   std::string path_;
   AtomicFile file_;
-  std::unique_ptr<rosbag::Bag> bag_;
+  BagWriter writer_;
 };
 
 /// A topic's name without its leading slash: bags recorded live have one, bags written by tools often not.
