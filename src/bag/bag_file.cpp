@@ -21,7 +21,7 @@ std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
   return bag;
 }
 
-BagOutput::BagOutput(const std::string& path) : path_(path), file_(path), writer_(file_.temporary()) {}
+BagOutput::BagOutput(const std::string& path) : path_(path), file_(path), writer_(guarded([&] { return BagWriter(file_.temporary()); })) {}
 
 void BagOutput::copy(const rosbag::MessageInstance& message) {
   guarded([&] { writer_.copy(message); });

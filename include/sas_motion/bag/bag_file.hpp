@@ -54,9 +54,9 @@ class BagOutput {
 
  private:
   template <class Action>
-  void guarded(const Action& action) {
+  auto guarded(const Action& action) {
     try {
-      action();
+      return action();
     } catch (const ros::Exception&) {
       throw;  // of the bag that is read
     } catch (const std::runtime_error& error) {

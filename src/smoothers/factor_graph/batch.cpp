@@ -17,6 +17,14 @@
 namespace sas_motion::towfish {
 namespace {
 
+constexpr std::size_t kLongestChain = 20000;  // nodes that elimination may recurse through
+
+/// In time order, which is fastest. Elimination recurses along the tree, though, and a long chain would overflow the stack: nested dissection
+/// then, whose tree is as deep as the logarithm.
+gtsam::Ordering ordering(const gtsam::NonlinearFactorGraph& graph, std::size_t nodes) {
+  return nodes > kLongestChain ? gtsam::Ordering::Metis(graph) : gtsam::Ordering::Natural(graph);
+}
+
 gtsam::LevenbergMarquardtParams levenbergMarquardt(const SmootherOptions& options, gtsam::Marginals::Factorization factorization) {
   using Solvers = gtsam::NonlinearOptimizerParams;
   gtsam::LevenbergMarquardtParams params;
@@ -25,7 +33,6 @@ gtsam::LevenbergMarquardtParams levenbergMarquardt(const SmootherOptions& option
   params.relativeErrorTol = options.tolerance;
   params.absoluteErrorTol = 0;
   params.lambdaInitial = 1e-9;  // the filter's trajectory is near: begin as Gauss-Newton
-  params.orderingType = gtsam::Ordering::NATURAL;
   return params;
 }
 
@@ -46,7 +53,8 @@ std::vector<StateVector> trajectoryOf(const gtsam::Values& values) {
 
 void addMarginals(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values& values, gtsam::Marginals::Factorization factorization,
                   SmootherResult& result) {
-  const gtsam::Marginals marginals(graph, values, factorization);
+  const auto order = values.size() > kLongestChain ? gtsam::Ordering::Metis(graph) : gtsam::Ordering::Colamd(graph);
+  const gtsam::Marginals marginals(graph, values, order, factorization);
   const auto trajectory = trajectoryOf(values);
   result.states.resize(trajectory.size());
   for (std::size_t k = 0; k < trajectory.size(); ++k) result.states[k] = {trajectory[k], marginals.marginalCovariance(k)};
@@ -98,7 +106,9 @@ SmootherResult smoothBatch(const SmoothingProblem& problem, const SmootherOption
     if (options.loss.redescending()) stages.insert(stages.begin(), Loss(LossKind::Huber));
     for (const Loss& loss : stages) {
       const auto graph = buildGraph(problem, loss);
-      gtsam::LevenbergMarquardtOptimizer optimizer(graph, values, levenbergMarquardt(options, factorization));
+      auto params = levenbergMarquardt(options, factorization);
+      params.ordering = ordering(graph, values.size());
+      gtsam::LevenbergMarquardtOptimizer optimizer(graph, values, params);
       values = optimizer.optimize();
       result.cost = optimizer.error();
       result.iterations += static_cast<int>(optimizer.iterations());
@@ -114,6 +124,7 @@ SmootherResult smoothGnc(const SmoothingProblem& problem, double probability) {
   return guarded([&](Factorization factorization) {
     const auto graph = buildGraph(problem, Loss(LossKind::L2));
     gtsam::GncParams<gtsam::LevenbergMarquardtParams> params(levenbergMarquardt({Loss(LossKind::L2), 100, 1e-7}, factorization));
+    params.baseOptimizerParams.ordering = ordering(graph, problem.nodes());
     params.setLossType(gtsam::GncLossType::TLS);
     gtsam::GncParams<gtsam::LevenbergMarquardtParams>::IndexVector trusted;
     for (std::size_t i = 0; i < graph.size(); ++i)
