@@ -20,7 +20,10 @@ def filterpy_step():
     kf.Q, kf.R, kf.P = np.eye(6) * 1e-4, np.diag([1, 1, 7.6e-5, 2.5e-3]), np.eye(6) * 0.05
     z = np.array([[0.6], [0.4], [0.004], [0.03]])
 
-    def step():
+    def step():  # like ours, the model is evaluated at each step
+        heading, speed, dt = kf.x[4, 0], kf.x[5, 0], 0.1
+        c, s = np.cos(heading), np.sin(heading)
+        kf.F[0, 4], kf.F[1, 4], kf.F[0, 5], kf.F[1, 5] = -speed * dt * s, speed * dt * c, dt * c, dt * s
         kf.predict()
         kf.update(z)
     return min(timeit.repeat(step, number=2000, repeat=5)) / 2000 * 1e9
