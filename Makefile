@@ -9,6 +9,7 @@ export PATH := /usr/bin:$(PATH)
 
 BUILD ?= build
 OUT ?= compare
+PREFIX ?= $(CURDIR)/install
 CMAKE_FLAGS ?=
 GENERATOR := -G Ninja
 WITH_ROS := if [ -r /opt/ros/noetic/setup.bash ]; then set +u; source /opt/ros/noetic/setup.bash; set -u; fi
@@ -24,7 +25,7 @@ setup:  ## install Debian packages and GTSAM, where missing
 
 build: setup  ## build everything, in build/ and devel/
 	@echo "build: configuring and compiling (about 6 minutes on two cores the first time)"
-	@$(WITH_ROS); cmake -S . -B $(BUILD) $(GENERATOR) -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_DEVEL_PREFIX=$(CURDIR)/devel $(CMAKE_FLAGS) > $(BUILD)-configure.log 2>&1 \
+	@$(WITH_ROS); cmake -S . -B $(BUILD) $(GENERATOR) -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_DEVEL_PREFIX=$(CURDIR)/devel -DCMAKE_INSTALL_PREFIX=$(PREFIX) $(CMAKE_FLAGS) > $(BUILD)-configure.log 2>&1 \
 	  || { mkdir -p $(BUILD); tail -n 20 $(BUILD)-configure.log; echo "build: CMake could not configure; its log is $(BUILD)-configure.log" >&2; exit 1; }
 	@cmake --build $(BUILD) -j $$(nproc) -- --quiet
 
@@ -42,8 +43,8 @@ check:  ## formatting, lint and sanitizers
 	@scripts/setup.sh clang-format clang-tidy
 	@scripts/check.sh
 
-install: build  ## install into install/, which runs without the source tree
-	@cmake -DCMAKE_INSTALL_PREFIX=$(CURDIR)/install -P $(BUILD)/cmake_install.cmake > /dev/null && echo "install: source install/setup.bash"
+install: build  ## install into PREFIX (default: install/), which runs without the source tree
+	@cmake --install $(BUILD) > /dev/null && echo "install: source $(PREFIX)/setup.bash"
 
 clean:  ## remove what was built
 	@rm -rf $(BUILD) $(BUILD)-configure.log devel install
