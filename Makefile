@@ -9,7 +9,8 @@ export PATH := /usr/bin:$(PATH)
 
 BUILD ?= build
 OUT ?= compare
-PREFIX ?= $(CURDIR)/install
+# outside this folder: ROS searches it for executables and would find each tool twice
+PREFIX ?= /opt/sas_motion
 CMAKE_FLAGS ?=
 GENERATOR := -G Ninja
 WITH_ROS := if [ -r /opt/ros/noetic/setup.bash ]; then set +u; source /opt/ros/noetic/setup.bash; set -u; fi
@@ -43,8 +44,8 @@ check:  ## formatting, lint and sanitizers
 	@scripts/setup.sh clang-format clang-tidy
 	@scripts/check.sh
 
-install: build  ## install into PREFIX (default: install/), which runs without the source tree
+install: build  ## install into PREFIX (default: /opt/sas_motion), which runs without the source tree
 	@cmake --install $(BUILD) > /dev/null && echo "install: source $(PREFIX)/setup.bash"
 
 clean:  ## remove what was built
-	@rm -rf $(BUILD) $(BUILD)-configure.log devel install
+	@rm -rf $(BUILD) $(BUILD)-configure.log devel

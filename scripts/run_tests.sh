@@ -32,5 +32,15 @@ status=${PIPESTATUS[0]}
 passed=$((passed + $(count passed "$log"))) failed=$((failed + $(count failed "$log") + $(count error "$log"))) skipped=$((skipped + $(count skipped "$log")))
 [ "$status" -eq 0 ] || [ "$failed" -gt 0 ] || failed=1
 
+echo "test: every benchmark once, at its smallest size"
+figures=$(mktemp -d)
+if SMOKE=1 OUT_DIR="$figures" "$root/scripts/bench.sh" >"$log" 2>&1; then
+  passed=$((passed + 1))
+else
+  tail -n 20 "$log"
+  failed=$((failed + 1))
+fi
+rm -rf "$figures"
+
 echo "$passed passed, $failed failed, $skipped skipped"
 [ "$failed" -eq 0 ]
