@@ -10,7 +10,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
 from sas_motion_report import ReportError  # noqa: E402
-from sas_motion_report.files import find_tool, write_atomically  # noqa: E402
+from sas_motion_report.files import find_tool, make_folder, write_atomically  # noqa: E402
 from sas_motion_report.inputs import read_metrics, read_series  # noqa: E402
 from sas_motion_report.report import render  # noqa: E402
 from sas_motion_report.table import terminal_table  # noqa: E402
@@ -40,14 +40,6 @@ def parse_arguments(arguments):
 def default_folder(bag):
     """Returns the report folder of a bag: its path without `.bag`, with `_report`."""
     return (bag[:-len('.bag')] if bag.endswith('.bag') else bag) + '_report'
-
-
-def make_folder(folder):
-    """Creates the report folder unless it is there."""
-    try:
-        os.makedirs(folder, exist_ok=True)
-    except OSError as error:
-        raise ReportError(f'the folder {folder} cannot be made ({error.strerror}); name another with -o') from None
 
 
 def run_metrics(bag, folder, tool):

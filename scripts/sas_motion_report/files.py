@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finding the metrics tool and writing files that are never half written."""
+"""Finding a tool and writing files that are never half written."""
 import os
 import shutil
 import subprocess
@@ -8,8 +8,8 @@ import subprocess
 from . import ReportError
 
 
-def find_tool(name):
-    """Returns the path of a tool: beside the script, then in the catkin workspace, then on PATH."""
+def find_tool(name, option='--tool'):
+    """Returns the path of a tool: beside the script, then in the catkin workspace, then on PATH; `option` is how the user may name it."""
     beside = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
     candidates = [os.path.join(beside, name)] + catkin_candidates(name)
     for path in candidates:
@@ -17,7 +17,7 @@ def find_tool(name):
             return path
     path = shutil.which(name)
     if path is None:
-        raise ReportError(f'{name} is not found; build the package and source its setup.bash, or name the tool with --tool')
+        raise ReportError(f'{name} is not found; build the package and source its setup.bash, or name the tool with {option}')
     return path
 
 
@@ -41,6 +41,14 @@ def ask_catkin_find(name):
     except (OSError, subprocess.TimeoutExpired):
         return []
     return answer.stdout.split('\n')[:-1]
+
+
+def make_folder(folder):
+    """Creates the folder for the results unless it is there."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise ReportError(f'the folder {folder} cannot be made ({error.strerror}); name another with -o') from None
 
 
 def write_atomically(path, text):

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 The sas_motion authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The results as plain text for a terminal."""
+from sas_motion_report.inputs import dig
+
+HEADER = ('estimator', 'RMSE [m]', '95 %', 'median [m]', 'R', '/kf', '/oracle', '/reference', '/bound', '95 %', 'aperture [mm]', 'NEES/n', 'diverged', 'us/update')
+
+
+def terminal_table(summary, costs):
+    """Returns a table a law, the laws of all campaigns one after another."""
+    lines = []
+    for name, campaign in summary['campaigns'].items():
+        last = summary['first_seed'] + summary['runs'] - 1
+        lines += [f'{summary["suite"]}, {name} ({campaign["system"]}): {summary["runs"]} runs of {campaign["duration"]:g} s, '
+                  f'first {campaign["skip"]:g} s not scored, seeds {summary["first_seed"]} to {last}', '']
+        for law, found in campaign['laws'].items():
+            rows = [HEADER] + [row(campaign, estimator, found['estimators'][estimator], dig(costs, name, law, estimator)) for estimator in campaign['estimators']]
+            lines += [law, *aligned(rows), '']
+    return '\n'.join(lines + [LEGEND])
+
+
+LEGEND = ('RMSE: RMS over the runs, of the first group of errors (position); R: over the same estimator under the first law; /reference: bayes_reference;\n'
+          '/bound: posterior Cramér-Rao bound; 95 %: bootstrap over the runs, of the column to its left; NEES/n: expected 1. Diverged runs are counted only.')
+
+
+def row(campaign, name, found, cost):
+    """Returns the cells of one estimator."""
+    error, ratios = found['errors'][campaign['groups'][0]], found['ratios']
+    ratio = [fixed(dig(ratios, key, 'value'), 3) for key in ('clean', 'kf', 'oracle_kf', 'bayes_reference', 'bound')]
+    aperture = dig(found, 'aperture_across', 'value')
+    return (name, fixed(dig(error, 'rms', 'value'), 4), span(error.get('rms'), 4), fixed(dig(error, 'median', 'value'), 4), *ratio, span(ratios.get('bound'), 3),
+            fixed(None if aperture is None else 1e3 * aperture, 2), fixed(dig(found, 'nees', 'full', 'value'), 2), str(found['diverged']), fixed(cost, 2))
+
+
+def fixed(x, digits):
+    """Returns a number with so many decimals."""
+    return '-' if x is None else f'{x:.{digits}f}'
+
+
+def span(found, digits):
+    """Returns an interval as low..high."""
+    return '-' if found is None or found.get('low') is None else f'{found["low"]:.{digits}f}..{found["high"]:.{digits}f}'
+
+
+def aligned(rows):
+    """Returns the rows as lines: the name to the left, numbers to the right; a column that nobody fills is left out."""
+    shown = [i for i in range(len(rows[0])) if any(row[i] != '-' for row in rows[1:])]
+    widths = {i: max(len(row[i]) for row in rows) for i in shown}
+    return ['  '.join(row[i].ljust(widths[i]) if i == 0 else row[i].rjust(widths[i]) for i in shown).rstrip() for row in rows]
