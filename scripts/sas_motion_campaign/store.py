@@ -10,7 +10,7 @@ from sas_motion_report.files import write_atomically
 
 from .costs import costs_by_key, render_costs
 
-OUTPUTS = ('results.jsonl', 'results.partial.jsonl', 'costs.json', 'summary.json', 'report.html')
+OUTPUTS = ('results.jsonl', 'results.partial.jsonl', 'costs.json', 'summary.json', 'report.html', 'report.pdf')
 
 
 class Store:

@@ -5,25 +5,6 @@ const SENSORS = ['position', 'heading', 'speed'];
 const ERRORS = [['north', 'north [m]'], ['east', 'east [m]'], ['heading_deg', 'heading [°]']];
 
 const colour = (data, theme, name) => theme.colours[data.order.indexOf(name) % theme.colours.length];
-const pick = (list, keep) => (list || []).filter((_, i) => keep(i));
-const finiteOnly = list => list.filter(Number.isFinite);
-
-function quantile(list, q) {
-  const sorted = finiteOnly(list).sort((a, b) => a - b);
-  return sorted.length ? sorted[Math.floor(q * (sorted.length - 1))] : NaN;
-}
-
-function axis(theme, extra) {
-  const title = {text: extra.title, font: {size: 13}, standoff: 8};
-  return {color: theme.soft, gridcolor: theme.rule, zerolinecolor: theme.rule, linecolor: theme.soft, automargin: true, ...extra, title};
-}
-
-function frame(theme, height, extra) {
-  return {height, font: {family: theme.font, size: 13, color: theme.ink}, paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)',
-    margin: {l: 52, r: 14, t: theme.narrow ? 12 : 34, b: 44}, legend: {orientation: 'h', x: 0, y: 1.02, yanchor: 'bottom'}, uirevision: 'keep',
-    dragmode: theme.coarse ? false : 'zoom', hoverlabel: {namelength: -1},
-    modebar: {bgcolor: 'rgba(0,0,0,0)', color: theme.soft, activecolor: theme.ink}, ...extra};
-}
 
 function trackFigure(data, chosen, theme) {
   const line = (name, s, look) => ({name, x: s.east, y: s.north, mode: 'lines', line: look, hovertemplate: '%{x:.2f} m east<br>%{y:.2f} m north'});
@@ -55,19 +36,6 @@ function trackView(data) {
   const margin = 0.1 * Math.max(...bounds.map(([low, high]) => high - low)) + 1;
   const [east, north] = bounds.map(([low, high]) => Number.isFinite(low) ? [low - margin, high + margin] : undefined);
   return {east, north};
-}
-
-/** Rows of plots over one time axis; `rows` holds [title, traces, layout of the row's axis]. */
-function stackedFigure(data, theme, rows, shapes) {
-  const layout = frame(theme, 90 + rows.length * (theme.narrow ? 150 : 170), {shapes, showlegend: false});
-  layout.xaxis = axis(theme, {title: 'time [s]', anchor: `y${rows.length > 1 ? rows.length : ''}`, range: data.duration ? [0, data.duration] : undefined});
-  const gap = 0.1 / rows.length;
-  const height = (1 - gap * (rows.length - 1)) / rows.length;
-  rows.forEach(([title, , look], i) => {
-    const bottom = Math.max(0, 1 - (i + 1) * height - i * gap);
-    layout[`yaxis${i ? i + 1 : ''}`] = axis(theme, {title, domain: [bottom, bottom + height], ...look});
-  });
-  return {traces: rows.flatMap(([, traces], i) => traces.map(trace => ({...trace, xaxis: 'x', yaxis: `y${i ? i + 1 : ''}`}))), layout};
 }
 
 function timeShades(data, theme) {

@@ -1,26 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Unpacks plotly.js, draws the plots, and redraws them for another estimator, another colour scheme, or paper.
+// Draws the plots, and redraws them for another estimator, another colour scheme, or paper.
 const data = JSON.parse(document.getElementById('data').textContent);
 const chooser = document.getElementById('estimator');
 const figures = {track: trackFigure, errors: errorFigure, weights: weightFigure, nis: nisFigure, cost: costFigure};
-const PAPER_WIDTH = 660; // A4 within its margins [px]
-
-async function unpackPlotly() {
-  const packed = Uint8Array.from(atob(document.getElementById('plotly').textContent.trim()), c => c.charCodeAt(0));
-  const source = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
-  const script = document.createElement('script');
-  script.textContent = await new Response(source).text();
-  document.head.append(script);
-}
-
-function currentTheme() {
-  const style = getComputedStyle(document.documentElement);
-  const read = name => style.getPropertyValue(`--${name}`).trim();
-  return {ink: read('ink'), soft: read('soft'), rule: read('rule'), bad: read('bad'), warn: read('warn'), shade: read('shade'),
-    colours: [0, 1, 2, 3, 4, 5, 6, 7].map(i => read(`c${i}`)), font: 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif',
-    narrow: document.documentElement.clientWidth < 640, coarse: matchMedia('(pointer: coarse)').matches};
-}
 
 function drawOne(name, theme) {
   const place = document.getElementById(`plot-${name}`);

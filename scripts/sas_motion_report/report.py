@@ -1,14 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The HTML report: one file that opens without a network."""
-import base64
-import gzip
-import json
-import os
 from html import escape
 from string import Template
 
 from . import ReportError, tables
+from .assets import asset, data_text, packed_plotly
 from .columns import quantity
 from .figures import figure_data
 from .headline import headline
@@ -26,27 +23,11 @@ def render(metrics, series):
     try:
         data = figure_data(metrics, series)
         parts = {**texts(metrics), **sections(metrics, data)}
-        parts['data'] = json.dumps(data, allow_nan=False, separators=(',', ':')).replace('<', '\\u003c')
+        parts['data'] = data_text(data)
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         raise ReportError(f'metrics.json or series.json has not the form of docs/metrics.schema.json ({error}); run evaluate.py on the bag again') from None
-    parts.update(style=asset('style.css'), script=asset('figures.js') + asset('page.js'), plotly=packed_plotly())
+    parts.update(style=asset('style.css'), script=asset('plotting.js') + asset('figures.js') + asset('page.js'), plotly=packed_plotly())
     return Template(asset('template.html')).substitute(parts)
-
-
-def asset(name):
-    """Returns the text of a file beside this one."""
-    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), name), encoding='utf-8') as file:
-        return file.read()
-
-
-def packed_plotly():
-    """Returns plotly.js compressed as base64, a quarter of its 9 MB; the page unpacks it."""
-    try:
-        from plotly.offline import get_plotlyjs
-        source = get_plotlyjs()
-    except (ImportError, OSError):
-        raise ReportError('plotly is not installed, so report.html cannot be written; run scripts/setup.sh or install python3-plotly') from None
-    return base64.b64encode(gzip.compress(source.encode('utf-8'), 9, mtime=0)).decode('ascii')
 
 
 def texts(metrics):

@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 import pytest
+from browser import open_browser, severe, wait_until
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCRIPT = os.path.join(ROOT, 'scripts', 'evaluate.py')
@@ -135,31 +136,6 @@ def page(tmp_path_factory):
     done = evaluate('--from', folder)
     assert done.returncode == 0, done.stderr
     return os.path.join(folder, 'report.html')
-
-
-def open_browser(path, width, height):
-    """A headless chromium of a given viewport that has drawn the page."""
-    webdriver = pytest.importorskip('selenium.webdriver')
-    options = webdriver.ChromeOptions()
-    for flag in ('--headless=new', '--no-sandbox', '--disable-gpu', '--hide-scrollbars'):
-        options.add_argument(flag)
-    options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
-    browser = webdriver.Chrome(options=options)
-    browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {'width': width, 'height': height, 'deviceScaleFactor': 1, 'mobile': width < 500})
-    browser.get('file://' + path)
-    wait_until(browser, 'return document.documentElement.dataset.drawn !== undefined')
-    return browser
-
-
-def wait_until(browser, condition):
-    """Waits up to 60 s for a JavaScript condition."""
-    from selenium.webdriver.support.ui import WebDriverWait
-    WebDriverWait(browser, 60).until(lambda b: b.execute_script(condition))
-
-
-def severe(browser):
-    """The browser's errors."""
-    return [entry['message'] for entry in browser.get_log('browser') if entry['level'] == 'SEVERE']
 
 
 @pytest.fixture(scope='module')
