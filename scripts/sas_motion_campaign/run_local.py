@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs tasks on this machine: one run_campaign at a time, its threads being the jobs."""
 import subprocess
-import tempfile
+import threading
 import time
 
 from sas_motion_report import ReportError
@@ -32,20 +32,22 @@ def run_locally(worker, plan, missing, jobs, save):
 
 def run_chunk(worker, plan, chunk, jobs, save):
     """Runs one process; returns how many tasks it answered, its status and what it complained of."""
-    with tempfile.TemporaryFile('w+', encoding='utf-8', errors='replace') as complaint:
-        try:
-            process = subprocess.Popen(worker.command(chunk, jobs), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=complaint, universal_newlines=True)
-        except OSError as error:
-            raise ReportError(cannot_run(worker.program, error)) from None
-        try:
-            done = collect(process.stdout, plan, chunk, save)
-            status = process.wait()
-        finally:
-            process.kill()
-            process.wait()
-            process.stdout.close()
-        complaint.seek(0)
-        return done, status, complaint.read()
+    try:
+        process = subprocess.Popen(worker.command(chunk, jobs), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    except OSError as error:
+        raise ReportError(cannot_run(worker.program, error)) from None
+    complaints = []
+    listener = threading.Thread(target=lambda: complaints.append(process.stderr.read()), daemon=True)  # a full pipe would stop the process
+    listener.start()
+    try:
+        done = collect(process.stdout, plan, chunk, save)
+        status = process.wait()
+        listener.join()
+    finally:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+    return done, status, ''.join(complaints)
 
 
 def collect(lines, plan, chunk, save):

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The results of a folder: results.jsonl and costs.json when complete, results.partial.jsonl while runs are missing."""
+import errno
 import fcntl
 import json
 import os
@@ -74,7 +75,7 @@ class Store:
     def open(self):
         """Opens the partial file for appending, without a torn last line, for this process alone."""
         try:
-            self.partial = open(self.path('results.partial.jsonl'), 'ab+')
+            self.partial = open(self.path('results.partial.jsonl'), 'ab+', buffering=0)  # what fails to be written must not come again on closing
             fcntl.flock(self.partial, fcntl.LOCK_EX | fcntl.LOCK_NB)
             self.partial.seek(0)
             self.partial.truncate(self.partial.read().rfind(b'\n') + 1)
@@ -85,11 +86,12 @@ class Store:
 
     def add(self, records):
         """Appends finished runs and makes them last through a crash."""
+        for record in records:
+            self.records[record['campaign'], record['law'], record['seed']] = {'results': record['results'], 'cost': record['cost']}
+        data = ''.join(self.line(record, cost=record['cost']) + '\n' for record in records).encode('utf-8')
         try:
-            for record in records:
-                self.records[record['campaign'], record['law'], record['seed']] = {'results': record['results'], 'cost': record['cost']}
-                self.partial.write((self.line(record, cost=record['cost']) + '\n').encode('utf-8'))
-            self.partial.flush()
+            if self.partial.write(data) < len(data):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
             os.fsync(self.partial.fileno())
         except OSError as error:
             raise ReportError(f'{self.partial.name} cannot be written ({error.strerror}); free the disk and start again to go on') from None

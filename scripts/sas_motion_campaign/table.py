@@ -3,7 +3,7 @@
 """The results as plain text for a terminal."""
 from sas_motion_report.inputs import dig
 
-HEADER = ('estimator', 'RMSE [m]', '95 %', 'median [m]', 'R', '/kf', '/oracle', '/reference', '/bound', '95 %', 'aperture [mm]', 'NEES/n', 'diverged', 'us/update')
+HEADER = ('estimator', 'RMSE', '95 %', 'median', 'R', '/kf', '/oracle', '/reference', '/bound', '95 %', 'aperture [mm]', 'NEES/n', 'diverged', 'us/update')
 
 
 def terminal_table(summary, costs):
@@ -14,13 +14,19 @@ def terminal_table(summary, costs):
         lines += [f'{summary["suite"]}, {name} ({campaign["system"]}): {summary["runs"]} runs of {campaign["duration"]:g} s, '
                   f'first {campaign["skip"]:g} s not scored, seeds {summary["first_seed"]} to {last}', '']
         for law, found in campaign['laws'].items():
-            rows = [HEADER] + [row(campaign, estimator, found['estimators'][estimator], dig(costs, name, law, estimator)) for estimator in campaign['estimators']]
+            rows = [header(campaign)] + [row(campaign, estimator, found['estimators'][estimator], dig(costs, name, law, estimator)) for estimator in campaign['estimators']]
             lines += [law, *aligned(rows), '']
     return '\n'.join(lines + [LEGEND])
 
 
 LEGEND = ('RMSE: RMS over the runs, of the first group of errors (position); R: over the same estimator under the first law; /reference: bayes_reference;\n'
           '/bound: posterior Cramér-Rao bound; 95 %: bootstrap over the runs, of the column to its left; NEES/n: expected 1. Diverged runs are counted only.')
+
+
+def header(campaign):
+    """Returns the titles, with the unit where it is known."""
+    unit = ' [m]' if campaign['groups'][0] == 'position' else ''
+    return tuple(title + unit if title in ('RMSE', 'median') else title for title in HEADER)
 
 
 def row(campaign, name, found, cost):

@@ -56,6 +56,8 @@ def failure(status, complaint, arguments):
     if status < 0:
         return f'run_campaign {arguments} was stopped by signal {-status}; what is done is kept, so start again to go on'
     lines = [line for line in complaint.splitlines() if line.strip()]
+    if lines and lines[-1].startswith('run_campaign: '):
+        return lines[-1][len('run_campaign: '):]
     return lines[-1] if lines else f'run_campaign {arguments} failed with status {status} and did not say why; run it by itself'
 
 

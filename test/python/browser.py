@@ -12,16 +12,21 @@ def open_browser(path, width, height):
         options.add_argument(flag)
     options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
     browser = webdriver.Chrome(options=options)
+    show(browser, path, width, height)
+    return browser
+
+
+def show(browser, path, width, height):
+    """Opens the page in a viewport of this size and waits until it is drawn."""
     browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {'width': width, 'height': height, 'deviceScaleFactor': 1, 'mobile': width < 500})
     browser.get('file://' + path)
     wait_until(browser, 'return document.documentElement.dataset.drawn !== undefined')
-    return browser
 
 
 def wait_until(browser, condition):
     """Waits up to 60 s for a JavaScript condition."""
     from selenium.webdriver.support.ui import WebDriverWait
-    WebDriverWait(browser, 60).until(lambda b: b.execute_script(condition))
+    WebDriverWait(browser, 60, 0.05).until(lambda b: b.execute_script(condition))
 
 
 def severe(browser):

@@ -3,6 +3,8 @@
 """How the front `benchmark` schedules, resumes and gives up: the same bytes however the runs came about."""
 import json
 import os
+import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -163,7 +165,7 @@ def test_a_killed_dask_worker_changes_nothing(reference, tmp_path):
 
 
 def test_a_failing_task_is_told_in_its_own_words(tmp_path):
-    front.refused(front.benchmark(tmp_path, 'out', STUB_FAIL=40), 'task 40', 'positive definite')
+    front.refused(front.benchmark(tmp_path, 'out', STUB_FAIL=40), 'benchmark: task 40', 'positive definite')
     front.succeed(tmp_path, 'out', STUB_FAIL=0)  # what was done is kept
 
 
@@ -171,6 +173,24 @@ def test_a_failing_chunk_on_dask_is_told_in_its_own_words():
     done = subprocess.CompletedProcess([], 1, '', 'run_campaign: task 40: the covariance is not positive definite\n')
     with pytest.raises(ReportError, match='task 40: the covariance'):
         read_chunk(None, (32, 48), done)
+
+
+@pytest.mark.parametrize('size', [0, 4096])
+def test_a_full_disk(size, reference, tmp_path):
+    # GIVEN a folder with a good output, and a disk with room for almost nothing
+    shutil.copytree(reference / 'out', tmp_path / 'out')
+    before = front.outputs(tmp_path, 'out')
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    # WHEN the front writes there, and into an empty folder
+    for out in ('out', 'empty'):
+        arguments = front.command(tmp_path, '-o', tmp_path / out, '--no-report')
+        done = subprocess.run(arguments, stderr=subprocess.PIPE, stdout=subprocess.PIPE, universal_newlines=True, check=False, preexec_fn=limit, env=front.environment())
+        # THEN it says so and the good output stands
+        front.refused(done, str(tmp_path / out))
+    assert front.outputs(tmp_path, 'out') == before
+    assert sorted(os.listdir(tmp_path / 'out')) == ['costs.json', 'results.jsonl', 'summary.json']
 
 
 def test_what_cannot_work_is_said(tmp_path):

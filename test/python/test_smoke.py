@@ -40,18 +40,21 @@ def test_evaluate_writes_the_report_of_a_real_bag(reprocessed, tmp_path):
 def test_the_accuracy_suite_has_all_its_rows(tmp_path):
     # WHEN the suite of the published table runs with one seed a law
     table = toolbox.succeed("benchmark", SUITE, "--runs", 1, "-o", tmp_path)
-    # THEN every estimator has a row under every law, printed and in the files
-    suite = yaml.safe_load(SUITE.read_text())
-    laws = [law["name"] for law in suite["laws"]]
+    # THEN every estimator has a row under every law, printed and in the files, and there is a report
     summary = json.loads((tmp_path / "summary.json").read_text())
-    assert set(summary["laws"]) == set(laws)
     results = [json.loads(line) for line in (tmp_path / "results.jsonl").read_text().splitlines()]
-    assert len(results) == len(laws) * len(suite["estimators"])
     lines = table.splitlines()
-    for law in laws:
-        rows = lines[lines.index(law) + 2:][:len(suite["estimators"])]
-        assert [row.split()[0] for row in rows] == suite["estimators"]
-        assert set(summary["laws"][law]) == set(suite["estimators"])
+    for campaign in yaml.safe_load(SUITE.read_text())["campaigns"]:
+        laws = [law["name"] for law in campaign["laws"]]
+        assert [r["law"] for r in results if r["campaign"] == campaign["name"]] == laws
+        found = summary["campaigns"][campaign["name"]]["laws"]
+        assert list(found) == laws
+        begin = next(i for i, line in enumerate(lines) if line.startswith(f"accuracy, {campaign['name']} "))
+        for law in laws:
+            rows = lines[lines.index(law, begin) + 2:][:len(campaign["estimators"])]
+            assert [row.split()[0] for row in rows] == campaign["estimators"]
+            assert set(found[law]["estimators"]) == set(campaign["estimators"])
+    assert "<html" in (tmp_path / "report.html").read_text()[:500]
 
 
 def test_the_shipped_configuration_is_the_default(simulated, tmp_path):

@@ -6,7 +6,12 @@ import rosbag
 import toolbox
 
 ALL = ["simulate", "reprocess", "sas_motion_metrics", "benchmark", "nmea_to_bag", "evaluate.py"]
-SUITE = {"scenario": str(toolbox.OUTLIERS), "estimators": ["kf"], "runs": 1, "skip": 5}
+
+
+def suite(campaign=None, **changes):
+    """A suite of one campaign of one run, with changes to the suite and to its campaign."""
+    survey = {"name": "survey", "system": "towfish", "scenario": str(toolbox.OUTLIERS), "estimators": ["kf"], "skip": 5, "laws": [{"name": "as it is"}]}
+    return {"name": "small", "runs": 1, "campaigns": [{**survey, **(campaign or {})}], **changes}
 
 
 @pytest.mark.parametrize("tool", ALL)
@@ -118,15 +123,15 @@ CONFIG = {**YAML, "unknown key": ("sensors: {position: {sigmaa: 1}}", "sensors.p
           "wrong type": ("lag: soon", "lag must be a number"), "no loss": ("estimators: {robust_kf: {loss: hubert}}", "estimators.robust_kf.loss")}
 SCENARIO = {**YAML, "unknown key": ("durations: 5", "durations"), "out of range": ("step: 0", "step is 0"),
             "wrong law": ("sensors: {speed: {noise: {law: foo}}}", "sensors.speed.noise.law")}
-CAMPAIGN = {**YAML, "unknown key": (str({**SUITE, "runz": 3}), "runz"), "out of range": (str({**SUITE, "runs": 0}), "runs is 0"),
-            "no scenario": ("{estimators: [kf]}", "scenario"), "missing scenario": ("{scenario: nowhere.yaml, estimators: [kf]}", "nowhere.yaml"),
-            "unknown estimator": (str({**SUITE, "estimators": ["kf", "kalmann"]}), "kalmann")}
+SUITES = {**YAML, "unknown key": (suite(runz=3), "runz"), "unknown key of a campaign": (suite({"runz": 3}), "runz"), "out of range": (suite(runs=0), "runs is 0"),
+          "no campaigns": ({"name": "small"}, "campaigns"), "no system": (suite({"system": "balloon"}), "balloon"),
+          "missing scenario": (suite({"scenario": "nowhere.yaml"}), "nowhere.yaml"), "unknown estimator": (suite({"estimators": ["kf", "kalmann"]}), "kalmann")}
 
 
 def refuse_yaml(tool, arguments, file, case, output):
     text, culprit = case
     if text is not None:
-        file.write_text(text)
+        file.write_text(text if isinstance(text, str) else str(text))
     refuse(tool, arguments, output, culprit, file.name if culprit != "nowhere.yaml" else culprit)
 
 
@@ -142,10 +147,10 @@ def test_simulate_refuses_a_scenario(kind, tmp_path):
     refuse_yaml("simulate", [file, "-o", tmp_path / "out" / "survey.bag"], file, SCENARIO[kind], tmp_path / "out")
 
 
-@pytest.mark.parametrize("kind", CAMPAIGN)
+@pytest.mark.parametrize("kind", SUITES)
 def test_benchmark_refuses_a_suite(kind, tmp_path):
     file = tmp_path / "a.yaml"
-    refuse_yaml("benchmark", [file, "-o", tmp_path / "out"], file, CAMPAIGN[kind], tmp_path / "out")
+    refuse_yaml("benchmark", [file, "-o", tmp_path / "out"], file, SUITES[kind], tmp_path / "out")
 
 
 @pytest.mark.parametrize("names, culprit", [("kf,kalmann", "kalmann"), ("", "''"), ("kf,kf", "twice")])

@@ -7,6 +7,9 @@ from sas_motion_report.figures import CHI_SQUARE_95
 from sas_motion_report.inputs import dig, finite
 
 
+TIMES = ('time', 'weight_time')
+
+
 def page_data(summary, costs):
     """Returns the numbers of every campaign."""
     return {'runs': summary['runs'], 'campaigns': {name: campaign_data(campaign, costs.get(name, {}), summary['runs'])
@@ -46,14 +49,14 @@ def chi_square_95(degrees):
 
 
 def trace_data(trace):
-    """Returns the series of the first seed: what a list holds to five digits, bands in place of degrees."""
+    """Returns the series of the first seed: what a list holds to four digits, times to seven, bands in place of degrees."""
     return {campaign: {law: {name: series(columns) for name, columns in (estimators or {}).items()} for law, estimators in laws.items()}
             for campaign, laws in trace.items()}
 
 
 def series(columns):
     """Returns one estimator's columns and the bands of its NEES and NIS, where their degrees are known."""
-    found = {key: [shortened(x) for x in column] for key, column in columns.items() if isinstance(column, list)}
+    found = {key: [shortened(x, 7 if key in TIMES else 4) for x in column] for key, column in columns.items() if isinstance(column, list)}
     for kind in ('nees', 'nis'):
         degrees = columns.get(f'{kind}_degrees')
         if isinstance(degrees, int) and degrees > 0:
@@ -61,6 +64,6 @@ def series(columns):
     return found
 
 
-def shortened(x):
-    """Returns a number of five digits, a flag as it is, None for what is neither."""
-    return x if isinstance(x, bool) else float(f'{x:.5g}') if finite(x) else None
+def shortened(x, digits=4):
+    """Returns a number of so many digits, a flag as it is, None for what is neither."""
+    return x if isinstance(x, bool) else float(f'{x:.{digits}g}') if finite(x) else None
