@@ -7,6 +7,7 @@ under the same paths as here. Dask runs the chunks of a lost worker again; since
 """
 import contextlib
 import logging
+import signal
 import subprocess
 import tempfile
 
@@ -49,8 +50,9 @@ def connect(distributed, stack, jobs, address):
     """Returns the client of the cluster; a local one lives as long as the stack."""
     if address == LOCAL:
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix='benchmark-dask-'))
-        cluster = stack.enter_context(distributed.LocalCluster(n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address=None,
-                                                               local_directory=folder, silence_logs=logging.CRITICAL))
+        with deaf_to_interrupts():
+            cluster = stack.enter_context(distributed.LocalCluster(n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address=None,
+                                                                   local_directory=folder, silence_logs=logging.CRITICAL))
         return stack.enter_context(distributed.Client(cluster))
     logging.getLogger('distributed').setLevel(logging.CRITICAL)
     try:
@@ -58,6 +60,16 @@ def connect(distributed, stack, jobs, address):
     except (OSError, ValueError) as error:
         raise ReportError(f'no Dask scheduler answers at {address} ({type(error).__name__}); start one with dask-scheduler, '
                           'give its address, or use --scheduler local') from None
+
+
+@contextlib.contextmanager
+def deaf_to_interrupts():
+    """Lets the processes that start meanwhile pass over Ctrl-C: we end them, and a traceback of each would hide what we say."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def submit(client, worker, chunk):

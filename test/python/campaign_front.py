@@ -18,7 +18,7 @@ LAWS = [{'name': 'clean'}, {'name': 'contaminated 0.1, K 10', 'noise': {'law': '
         {'name': 'contaminated 0.2, K 20', 'noise': {'law': 'contaminated', 'epsilon': 0.2, 'K': 20}}, {'name': 'bursts', 'noise': {'law': 'burst'}}]
 SUITE = {'name': 'sample', 'runs': 12, 'first_seed': 5, 'campaigns': [
     {'name': 'towfish', 'system': 'towfish', 'estimators': ESTIMATORS, 'laws': LAWS},
-    {'name': 'cv', 'system': 'constant_velocity', 'estimators': ['kf', 'robust_kf'], 'laws': LAWS[:2]}]}
+    {'name': 'cv', 'system': 'constant_velocity', 'estimators': ['kf', 'robust_kf'], 'laws': LAWS[:3]}]}
 
 
 def write_suite(folder, **changes):
@@ -52,7 +52,7 @@ def environment(**extra):
 def benchmark(folder, out, *arguments, report=False, **extra):
     """Runs the front; the output folder is below `folder`."""
     options = ['-o', pathlib.Path(folder) / out, '--jobs', 2, *([] if report else ['--no-report']), *arguments]
-    return subprocess.run(command(folder, *options), stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, check=False, timeout=60,
+    return subprocess.run(command(folder, *options), stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, check=False, timeout=120,
                           env=environment(**extra))
 
 

@@ -33,7 +33,7 @@ def partial(folder):
     return path.read_text().splitlines() if path.exists() else []
 
 
-def wait_for(condition, seconds=20):
+def wait_for(condition, seconds=40):
     """Waits until the condition holds."""
     limit = time.monotonic() + seconds
     while not condition():
@@ -129,7 +129,7 @@ def test_ctrl_c_keeps_what_is_done(tmp_path):
     process = start(tmp_path, STUB_DELAY=0.03)
     wait_for(lambda: partial(tmp_path))
     process.send_signal(signal.SIGINT)
-    _, stderr = process.communicate(timeout=20)
+    _, stderr = process.communicate(timeout=60)
     assert process.returncode == 130 and 'start again' in stderr and 'Traceback' not in stderr
     assert partial(tmp_path)
 
@@ -157,7 +157,7 @@ def test_a_killed_dask_worker_changes_nothing(reference, tmp_path):
         pids = client.run(os.getpid)
         os.kill(sorted(pids.values())[0], signal.SIGKILL)
         before = len(partial(tmp_path))
-        _, stderr = process.communicate(timeout=40)
+        _, stderr = process.communicate(timeout=90)
         # THEN its chunks run again and the bytes are the same
         assert process.returncode == 0, stderr
         assert before < 60
