@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace sas_motion::ros_side {
@@ -20,9 +21,10 @@ TumFile::~TumFile() {
 void TumFile::write(const towfish::Estimate& estimate) {
   const auto& x = estimate.belief.mean;
   const double yaw = kPi / 2 - x(towfish::kHeading);
-  const std::string line = fmt::format("{}.{:09d} {:.9f} {:.9f} 0 0 0 {:.12f} {:.12f}\n", estimate.stamp / kNanosecondsPerSecond,
+  line_.clear();
+  fmt::format_to(std::back_inserter(line_), "{}.{:09d} {:.9f} {:.9f} 0 0 0 {:.12f} {:.12f}\n", estimate.stamp / kNanosecondsPerSecond,
                                        estimate.stamp % kNanosecondsPerSecond, x(towfish::kEast), x(towfish::kNorth), std::sin(yaw / 2), std::cos(yaw / 2));
-  std::fwrite(line.data(), 1, line.size(), stream_);  // commit() looks for failures
+  std::fwrite(line_.data(), 1, line_.size(), stream_);  // commit() looks for failures
 }
 
 void TumFile::close() {

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -17,7 +19,8 @@
 
 #include "main_guard.hpp"
 #include "progress.hpp"
-#include "sas_motion/bag/bag_file.hpp"
+#include "sas_motion/bag/bag_reader.hpp"
+#include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace {
@@ -34,13 +37,26 @@ struct Options {
   bool resume = false;
 };
 
-/// A hash of a file's bytes (FNV-1a).
+/// A hash of a file's bytes: FNV-1a over words of 8 of them, the last filled up with zeros, and over the size. The shift lets high bits count.
 std::string hashOf(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> block(1 << 20);
-  std::uint64_t hash = 1469598103934665603ULL;
-  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0)
-    for (std::streamsize i = 0; i < stream.gcount(); ++i) hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 1099511628211ULL;
+  std::uint64_t hash = 1469598103934665603ULL, size = 0;
+  const auto add = [&hash](std::uint64_t word) {
+    hash = (hash ^ word) * 1099511628211ULL;
+    hash ^= hash >> 32U;
+  };
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
+    const auto got = static_cast<std::size_t>(stream.gcount());
+    size += got;
+    std::fill(block.begin() + static_cast<std::ptrdiff_t>(got), block.end(), '\0');
+    for (std::size_t i = 0; i < got; i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, block.data() + i, sizeof word);
+      add(word);
+    }
+  }
+  add(size);
   return fmt::format("{:016x}", hash);
 }
 
@@ -125,11 +141,8 @@ void run(const Options& options) {
   requireDistinct(options);
   double duration = 0;
   for (const auto& bag : options.bags) {
-    const auto source = openBag(bag);
-    readBag(bag, [&] {
-      rosbag::View view(*source);
-      if (view.size() > 0) duration += (view.getEndTime() - view.getBeginTime()).toSec();
-    });
+    const BagReader source(bag);
+    duration += (source.end() - source.begin()).toSec();
   }
   makeFolder(options.out);
   Manifest manifest(options.out + "/manifest.json");
@@ -147,8 +160,7 @@ void run(const Options& options) {
           const std::lock_guard<std::mutex> lock(mutex);
           if (options.resume && manifest.has(name, id) && std::filesystem::exists(options.out + "/" + name)) continue;
         }
-        const auto report =
-            readBag(bag, [&] { return reprocess(bag, options.out, options.estimators, settings, [&](double seconds) { progress.advance(seconds); }); });
+        const auto report = reprocess(bag, options.out, options.estimators, settings, [&](double seconds) { progress.advance(seconds); });
         json entry = toJson(report);
         entry["identity"] = id;
         const std::lock_guard<std::mutex> lock(mutex);
