@@ -79,9 +79,7 @@ void BagReader::load(const ChunkInfo& info) {
   heads_.clear();
   for (std::uint32_t i = 0; i < queues_.size(); ++i) {
     auto& entries = queues_[i].entries;
-    const auto before = [](const Entry& a, const Entry& b) {
-      return key(a.time) != key(b.time) ? key(a.time) < key(b.time) : a.chunk_order < b.chunk_order;
-    };
+    const auto before = [](const Entry& a, const Entry& b) { return key(a.time) != key(b.time) ? key(a.time) < key(b.time) : a.chunk_order < b.chunk_order; };
     if (!std::is_sorted(entries.begin(), entries.end(), before)) std::stable_sort(entries.begin(), entries.end(), before);
     if (!entries.empty()) heads_.push_back(i);
   }

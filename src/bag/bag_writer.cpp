@@ -11,7 +11,7 @@ using namespace bag_format;
 
 namespace {
 
-constexpr std::size_t kChunkSize = 768 * 1024;
+constexpr std::size_t kChunkSize = 786'432;
 
 template <class Number>
 std::string bytes(Number value) {
@@ -32,9 +32,7 @@ std::string op(Op code) { return field("op", std::string(1, static_cast<char>(co
 std::string withLength(const std::string& text) { return bytes(static_cast<std::uint32_t>(text.size())) + text; }
 
 /// The chunk's size is a part of its head, and its data's length.
-std::string chunkHead(std::uint32_t size) {
-  return withLength(op(kChunk) + field("compression", "none") + field("size", bytes(size))) + bytes(size);
-}
+std::string chunkHead(std::uint32_t size) { return withLength(op(kChunk) + field("compression", "none") + field("size", bytes(size))) + bytes(size); }
 
 }  // namespace
 
@@ -86,7 +84,7 @@ std::uint8_t* BagWriter::beginMessage(std::uint32_t connection, ros::Time time, 
   c.in_chunk.push_back({time, static_cast<std::uint32_t>(chunkSize())});
   const std::size_t head_size = c.message_head.size();
   std::uint8_t* head = block_.extend(head_size + size);
-  std::memcpy(head, c.message_head.data(), head_size);
+  std::copy(c.message_head.begin(), c.message_head.end(), head);
   std::memcpy(head + head_size - 12, &time.sec, 4);  // the head ends with time and size
   std::memcpy(head + head_size - 8, &time.nsec, 4);
   std::memcpy(head + head_size - 4, &size, 4);

@@ -35,8 +35,8 @@ TEST(FixedDecimals, HalfwayGoesToEven) {
 
 TEST(FixedDecimals, TakesEveryNumber) {
   using Limits = std::numeric_limits<double>;
-  for (const double value : {0.0, -0.0, 1.0, -1e-300, 9.2e9, 9.3e9, 1e300, Limits::denorm_min(), Limits::min(), Limits::max(), Limits::infinity(), -Limits::infinity(),
-                             Limits::quiet_NaN(), 0.9999999999, -0.99999999999999, 8999999999.9999999, std::nextafter(0.0, 1.0)})
+  for (const double value : {0.0, -0.0, 1.0, -1e-300, 9.2e9, 9.3e9, 1e300, Limits::denorm_min(), Limits::min(), Limits::max(), Limits::infinity(),
+                             -Limits::infinity(), Limits::quiet_NaN(), 0.9999999999, -0.99999999999999, 8999999999.9999999, std::nextafter(0.0, 1.0)})
     for (const int decimals : {0, 1, 9, 12, 20}) EXPECT_EQ(fixed(value, decimals), fmt::format("{:.{}f}", value, decimals)) << value;
 }
 

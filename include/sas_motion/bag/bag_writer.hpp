@@ -76,8 +76,8 @@ class BagWriter {
   std::string fileHeader(std::uint64_t index_position) const;
 
   BackgroundFile file_;
-  std::uint64_t position_ = 0;     // in the file, of the block
-  Block block_;                    // what is not yet handed to the file
+  std::uint64_t position_ = 0;                       // in the file, of the block
+  Block block_;                                      // what is not yet handed to the file
   std::size_t chunk_position_ = 0, chunk_data_ = 0;  // in the block
   ros::Time chunk_begin_, chunk_end_;
   std::vector<Connection> connections_;
