@@ -10,7 +10,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "sas_motion/bag/bag_file.hpp"
+#include "sas_motion/bag/bag_reader.hpp"
+#include "sas_motion/bag/topics.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -69,11 +70,11 @@ Audit auditOf(const sas_motion::FilterUpdate& update) {
 }
 
 /// The estimators of a bag: those whose topic NAME/update is there.
-std::set<std::string> estimatorsIn(rosbag::View& view) {
+std::set<std::string> estimatorsIn(const std::vector<BagConnection>& connections) {
   std::set<std::string> names;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    const std::string topic = bareTopic(connection->topic);
-    if (connection->datatype == "sas_motion/FilterUpdate" && topic.size() > 7 && topic.substr(topic.size() - 7) == "/update")
+  for (const auto& connection : connections) {
+    const std::string topic = bareTopic(connection.topic);
+    if (connection.type == "sas_motion/FilterUpdate" && topic.size() > 7 && topic.substr(topic.size() - 7) == "/update")
       names.insert(topic.substr(0, topic.size() - 7));
   }
   return names;
@@ -117,50 +118,47 @@ void sortByStamp(RecordedEstimator& estimator) {
 }  // namespace
 
 Recording Recording::read(const std::string& file) {
-  const auto bag = openBag(file);
-  rosbag::View view(*bag);
+  BagReader bag(file);
   Recording recording;
   std::map<std::string, bool> settled;
-  for (const auto& name : estimatorsIn(view)) recording.estimators[name];
+  for (const auto& name : estimatorsIn(bag.connections())) recording.estimators[name];
   if (recording.estimators.empty())
     throw std::runtime_error(fmt::format("{}: holds no estimates (no topic NAME/update); run reprocess on it or record the nodelets", file));
-  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+  for (const auto& connection : bag.connections())
     for (const auto& [name, unused] : recording.estimators)
-      if (bareTopic(connection->topic) == name + "/settled") settled[name] = true;
+      if (bareTopic(connection.topic) == name + "/settled") settled[name] = true;
 
   TruthParts truth;
   std::optional<LocalFrame> frame;
   std::vector<std::pair<Stamp, Geodetic>> fixes;
   std::map<std::string, std::map<Stamp, geometry_msgs::TwistWithCovarianceStamped>> currents;
-  for (const rosbag::MessageInstance& m : view) {
-    const std::string topic = bareTopic(m.getTopic());
+  nav_msgs::Odometry odometry;
+  geometry_msgs::TwistWithCovarianceStamped current;
+  sensor_msgs::NavSatFix fix;
+  sas_motion::FilterUpdate update;
+  sas_motion::MeasurementLabel label;
+  while (const BagMessage* m = bag.next()) {
+    const std::string topic = bareTopic(m->connection->topic);
     const auto slash = topic.rfind('/');
     const std::string name = slash == std::string::npos ? "" : topic.substr(0, slash), leaf = slash == std::string::npos ? topic : topic.substr(slash + 1);
     if (const auto found = recording.estimators.find(name); found != recording.estimators.end()) {
-      const auto wanted = settled[name] ? "settled" : "odometry";
-      if (leaf == wanted) found->second.estimates.push_back(estimateOf(*m.instantiate<nav_msgs::Odometry>()));
-      if (leaf == "update") found->second.audits.push_back(auditOf(*m.instantiate<sas_motion::FilterUpdate>()));
-      if (leaf == (settled[name] ? "settled_current" : "current")) {
-        const auto current = m.instantiate<geometry_msgs::TwistWithCovarianceStamped>();
-        currents[name][stampOf(current->header.stamp)] = *current;
-      }
+      const bool has_settled = settled[name];
+      if (leaf == (has_settled ? "settled" : "odometry") && bag.get(*m, odometry)) found->second.estimates.push_back(estimateOf(odometry));
+      if (leaf == "update" && bag.get(*m, update)) found->second.audits.push_back(auditOf(update));
+      if (leaf == (has_settled ? "settled_current" : "current") && bag.get(*m, current)) currents[name][stampOf(current.header.stamp)] = current;
     } else if (topic == "datum") {
-      if (!frame) frame.emplace(geodeticOf(*m.instantiate<sensor_msgs::NavSatFix>()));
+      if (!frame && bag.get(*m, fix)) frame.emplace(geodeticOf(fix));
     } else if (topic == "truth/fix") {
-      const auto fix = m.instantiate<sensor_msgs::NavSatFix>();
-      if (hasPosition(*fix)) truth.fixes[stampOf(fix->header.stamp)] = geodeticOf(*fix);
+      if (bag.get(*m, fix) && hasPosition(fix)) truth.fixes[stampOf(fix.header.stamp)] = geodeticOf(fix);
     } else if (topic == "truth/odometry") {
-      const auto odometry = m.instantiate<nav_msgs::Odometry>();
-      truth.odometry[stampOf(odometry->header.stamp)] = *odometry;
+      if (bag.get(*m, odometry)) truth.odometry[stampOf(odometry.header.stamp)] = odometry;
     } else if (topic == "truth/current") {
-      const auto current = m.instantiate<geometry_msgs::TwistWithCovarianceStamped>();
-      truth.current[stampOf(current->header.stamp)] = *current;
+      if (bag.get(*m, current)) truth.current[stampOf(current.header.stamp)] = current;
     } else if (topic == "truth/label") {
-      const auto label = m.instantiate<sas_motion::MeasurementLabel>();
-      recording.outlier[{stampOf(label->header.stamp), label->sensor}] = std::any_of(label->outlier.begin(), label->outlier.end(), [](bool b) { return b; });
-    } else if (m.getDataType() == "sensor_msgs/NavSatFix" && leaf == "fix") {
-      const auto fix = m.instantiate<sensor_msgs::NavSatFix>();
-      if (hasPosition(*fix)) fixes.emplace_back(stampOf(fix->header.stamp), geodeticOf(*fix));
+      if (bag.get(*m, label))
+        recording.outlier[{stampOf(label.header.stamp), label.sensor}] = std::any_of(label.outlier.begin(), label.outlier.end(), [](bool b) { return b; });
+    } else if (leaf == "fix") {
+      if (bag.get(*m, fix) && hasPosition(fix)) fixes.emplace_back(stampOf(fix.header.stamp), geodeticOf(fix));
     }
   }
   if (truth.fixes.empty()) throw std::runtime_error(fmt::format("{}: no topic truth/fix; there is nothing to score against", file));
@@ -177,7 +175,7 @@ Recording Recording::read(const std::string& file) {
   for (auto& [name, estimator] : recording.estimators) {
     sortByStamp(estimator);
     for (auto& estimate : estimator.estimates)
-      if (const auto current = currents[name].find(estimate.stamp); current != currents[name].end()) addCurrent(current->second, estimate.belief);
+      if (const auto found = currents[name].find(estimate.stamp); found != currents[name].end()) addCurrent(found->second, estimate.belief);
   }
   return recording;
 }

@@ -7,9 +7,10 @@
 
 #include <ctime>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 
-#include "sas_motion/bag/bag_file.hpp"
+#include "sas_motion/bag/bag_output.hpp"
+#include "sas_motion/bag/bag_reader.hpp"
 #include "sas_motion/bag/topics.hpp"
 #include "sas_motion/bag/tum.hpp"
 #include "sas_motion/ros/estimate_messages.hpp"
@@ -73,13 +74,31 @@ class Lane {
   ReprocessReport::PerEstimator report_;
 };
 
+/// What to do with the messages of a connection.
+struct Route {
+  enum Kind { kAnother, kOfAnEarlierRun, kTransforms, kFix, kImu, kTwist } kind = kAnother;
+  std::optional<std::uint32_t> output;  // its connection there
+};
+
+std::vector<Route> routesOf(const std::vector<BagConnection>& connections, const SensorTopics& topics, const std::vector<std::string>& estimators) {
+  std::vector<Route> routes(connections.size());
+  for (const auto& connection : connections) {
+    auto& kind = routes[connection.index].kind;
+    if (connection.topic == topics.twist) kind = Route::kTwist;
+    if (connection.topic == topics.imu) kind = Route::kImu;
+    if (connection.topic == topics.fix) kind = Route::kFix;
+    if (topics.transforms.count(connection.topic)) kind = Route::kTransforms;
+    if (isEstimate(connection.topic, estimators)) kind = Route::kOfAnEarlierRun;
+  }
+  return routes;
+}
+
 }  // namespace
 
 ReprocessReport reprocess(const std::string& input, const std::string& folder, const std::vector<std::string>& estimators, const Settings& settings,
                           const std::function<void(double)>& progress) {
-  const auto source = openBag(input);
-  rosbag::View view(*source);
-  const SensorTopics topics = findTopics(view, settings, input);
+  BagReader source(input);
+  std::vector<Route> routes = routesOf(source.connections(), findTopics(source.connections(), settings, input), estimators);
   const std::filesystem::path out = std::filesystem::path(folder) / std::filesystem::path(input).filename();
   if (std::filesystem::exists(out) && std::filesystem::equivalent(out, input))
     throw std::runtime_error(fmt::format("{}: the output would replace the input; choose another folder with -o", input));
@@ -101,30 +120,34 @@ ReprocessReport reprocess(const std::string& input, const std::string& folder, c
     batch.clear();
   };
 
-  const ros::Time begin = view.getBeginTime();
   double done = 0;
   bool datum_written = false;
-  for (const rosbag::MessageInstance& m : view) {
+  tf2_msgs::TFMessage tf;
+  sensor_msgs::NavSatFix fix;
+  sensor_msgs::Imu imu;
+  geometry_msgs::TwistWithCovarianceStamped twist;
+  while (const BagMessage* m = source.next()) {
     ++report.messages;
-    if (isEstimate(m.getTopic(), estimators)) continue;  // of an earlier run
-    bag.copy(m);
-    if (topics.transforms.count(m.getTopic())) {
-      if (const auto message = m.instantiate<tf2_msgs::TFMessage>())
-        for (const auto& T : message->transforms) transforms.setTransform(T, "bag", bareTopic(m.getTopic()) == "tf_static");
-    } else if (m.getTopic() == topics.fix) {
-      if (const auto message = m.instantiate<sensor_msgs::NavSatFix>()) ingest.take(*message);
-    } else if (m.getTopic() == topics.imu) {
-      if (const auto message = m.instantiate<sensor_msgs::Imu>()) ingest.take(*message);
-    } else if (m.getTopic() == topics.twist) {
-      if (const auto message = m.instantiate<geometry_msgs::TwistWithCovarianceStamped>()) ingest.take(*message);
+    Route& route = routes[m->connection->index];
+    if (route.kind == Route::kOfAnEarlierRun) continue;
+    if (!route.output) route.output = bag.connect(*m->connection);
+    bag.write(*route.output, m->time, m->bytes);
+    if (route.kind == Route::kTransforms && source.get(*m, tf)) {
+      for (const auto& T : tf.transforms) transforms.setTransform(T, "bag", bareTopic(m->connection->topic) == "tf_static");
+    } else if (route.kind == Route::kFix && source.get(*m, fix)) {
+      ingest.take(fix);
+    } else if (route.kind == Route::kImu && source.get(*m, imu)) {
+      ingest.take(imu);
+    } else if (route.kind == Route::kTwist && source.get(*m, twist)) {
+      ingest.take(twist);
     }
     if (!datum_written && ingest.frame()) {
-      bag.writeLatched("datum", m.getTime(), datumOf(*ingest.frame(), settings, m.getTime()));
+      bag.writeLatched("datum", m->time, datumOf(*ingest.frame(), settings, m->time));
       datum_written = true;
     }
     if (batch.size() >= kBatch) feed();
     if (report.messages % 1024 == 0) {
-      const double now = (m.getTime() - begin).toSec();
+      const double now = (m->time - source.begin()).toSec();
       progress(now - done);
       done = now;
     }
@@ -132,7 +155,7 @@ ReprocessReport reprocess(const std::string& input, const std::string& folder, c
   ingest.finish();
   feed();
   for (auto& lane : lanes) lane->finish(frame());
-  report.duration = report.messages > 0 ? (view.getEndTime() - begin).toSec() : 0;
+  report.duration = (source.end() - source.begin()).toSec();
   bag.commit();
   for (auto& lane : lanes) lane->commit();
   progress(report.duration - done);

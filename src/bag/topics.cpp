@@ -8,8 +8,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "sas_motion/bag/bag_file.hpp"
-
 namespace sas_motion::ros_side {
 namespace {
 
@@ -35,9 +33,9 @@ std::string find(const TypeByTopic& types, const std::string& wanted, const std:
 
 }  // namespace
 
-SensorTopics findTopics(const rosbag::View& view, const Settings& settings, const std::string& file) {
+SensorTopics findTopics(const std::vector<BagConnection>& connections, const Settings& settings, const std::string& file) {
   TypeByTopic types;
-  for (const rosbag::ConnectionInfo* connection : const_cast<rosbag::View&>(view).getConnections()) types[connection->topic] = connection->datatype;
+  for (const auto& connection : connections) types[connection.topic] = connection.type;
   // What an earlier run has put there is no sensor.
   TypeByTopic sensors;
   for (const auto& [topic, type] : types) {

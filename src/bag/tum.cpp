@@ -5,7 +5,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <string_view>
+
+#include "sas_motion/io/fixed_decimals.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -20,9 +24,17 @@ TumFile::~TumFile() {
 void TumFile::write(const towfish::Estimate& estimate) {
   const auto& x = estimate.belief.mean;
   const double yaw = kPi / 2 - x(towfish::kHeading);
-  const std::string line = fmt::format("{}.{:09d} {:.9f} {:.9f} 0 0 0 {:.12f} {:.12f}\n", estimate.stamp / kNanosecondsPerSecond,
-                                       estimate.stamp % kNanosecondsPerSecond, x(towfish::kEast), x(towfish::kNorth), std::sin(yaw / 2), std::cos(yaw / 2));
-  std::fwrite(line.data(), 1, line.size(), stream_);  // commit() looks for failures
+  line_.clear();
+  fmt::format_to(std::back_inserter(line_), "{}.{:09d} ", estimate.stamp / kNanosecondsPerSecond, estimate.stamp % kNanosecondsPerSecond);
+  appendFixed(x(towfish::kEast), 9, line_);
+  line_.push_back(' ');
+  appendFixed(x(towfish::kNorth), 9, line_);
+  line_.append(std::string_view(" 0 0 0 "));
+  appendFixed(std::sin(yaw / 2), 12, line_);
+  line_.push_back(' ');
+  appendFixed(std::cos(yaw / 2), 12, line_);
+  line_.push_back('\n');
+  std::fwrite(line_.data(), 1, line_.size(), stream_);  // commit() looks for failures
 }
 
 void TumFile::close() {

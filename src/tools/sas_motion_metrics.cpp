@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "main_guard.hpp"
-#include "sas_motion/bag/bag_file.hpp"
 #include "sas_motion/bag/recording.hpp"
 #include "sas_motion/bag/tum.hpp"
 
@@ -204,7 +203,7 @@ json costOf(const std::string& bag, const std::string& name) {
 }
 
 void run(const Options& options) {
-  const Recording recording = readBag(options.bag, [&] { return Recording::read(options.bag); });
+  const Recording recording = Recording::read(options.bag);
   makeFolder(options.out);
   const Judge judge(recording, options);
   double distance = 0;

@@ -10,7 +10,7 @@
 
 #include "main_guard.hpp"
 #include "progress.hpp"
-#include "sas_motion/bag/bag_file.hpp"
+#include "sas_motion/bag/bag_output.hpp"
 #include "sas_motion/ros/conversions.hpp"
 #include "sas_motion/simulation/simulator.hpp"
 

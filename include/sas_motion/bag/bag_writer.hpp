@@ -4,15 +4,15 @@
 
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
-#include <ros/time.h>
-#include <rosbag/message_instance.h>
 
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
+
+#include "sas_motion/bag/chunk_file.hpp"
+#include "sas_motion/io/background_file.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -22,9 +22,6 @@ class BagWriter {
  public:
   /// All functions throw std::runtime_error where the file cannot be written.
   explicit BagWriter(const std::string& path);
-  ~BagWriter();
-  BagWriter(const BagWriter&) = delete;
-  BagWriter& operator=(const BagWriter&) = delete;
 
   template <class Message>
   void write(const std::string& topic, ros::Time time, const Message& message, bool latched = false) {
@@ -35,20 +32,22 @@ class BagWriter {
     ros::serialization::serialize(stream, message);
     endMessage();
   }
-  /// A message of another bag, as it is there.
-  void copy(const rosbag::MessageInstance& message);
+  /// The connection here of one in another bag: the same for all of its topic and publisher.
+  std::uint32_t connect(const BagConnection& source);
+  /// A message as it is, of a connection that connect() gave.
+  void write(std::uint32_t connection, ros::Time time, bag_format::Bytes message);
   /// Writes the index; nothing may be written after it.
   void close();
 
  private:
   using Fields = std::map<std::string, std::string>;
-  struct IndexEntry {
+  struct IndexEntry {  // as in the file
     ros::Time time;
     std::uint32_t offset;
   };
   struct Connection {
-    std::string topic;
-    Fields header;
+    std::string record;        // what the bag says of it
+    std::string message_head;  // of each of its messages; its time and size are filled in
     std::vector<IndexEntry> in_chunk;
   };
   struct ChunkInfo {
@@ -70,15 +69,16 @@ class BagWriter {
   /// Where to put the message's bytes.
   std::uint8_t* beginMessage(std::uint32_t connection, ros::Time time, std::uint32_t size);
   void endMessage();
+  void beginChunk();
+  std::size_t chunkSize() const { return block_.size - chunk_data_; }
   void flushChunk();
-  void put(const std::string& bytes);
-  std::string connectionRecord(std::uint32_t id) const;
+  void flushBlock();
   std::string fileHeader(std::uint64_t index_position) const;
 
-  std::FILE* file_;
-  std::uint64_t position_ = 0;
-  std::vector<std::uint8_t> chunk_;
-  std::size_t chunk_size_ = 0;
+  BackgroundFile file_;
+  std::uint64_t position_ = 0;                       // in the file, of the block
+  Block block_;                                      // what is not yet handed to the file
+  std::size_t chunk_position_ = 0, chunk_data_ = 0;  // in the block
   ros::Time chunk_begin_, chunk_end_;
   std::vector<Connection> connections_;
   std::unordered_map<std::string, std::uint32_t> by_topic_, by_source_;

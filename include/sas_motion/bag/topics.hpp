@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rosbag/view.h>
-
 #include <set>
 #include <string>
 #include <vector>
 
+#include "sas_motion/bag/chunk_file.hpp"
 #include "sas_motion/ros/settings.hpp"
 
 namespace sas_motion::ros_side {
+
+/// A topic's name without its leading slash: bags recorded live have one, bags written by tools often not.
+inline std::string bareTopic(const std::string& topic) { return !topic.empty() && topic[0] == '/' ? topic.substr(1) : topic; }
 
 /// The topics of a bag that hold the sensors, as the bag spells them; empty where there is none.
 struct SensorTopics {
@@ -20,7 +22,7 @@ struct SensorTopics {
 
 /// Finds each sensor by its configured topic or, where the bag has no such topic, by its type when only one topic has it. Throws
 /// std::runtime_error where there is neither a position nor a heading, or where the choice is ambiguous.
-SensorTopics findTopics(const rosbag::View& view, const Settings& settings, const std::string& file);
+SensorTopics findTopics(const std::vector<BagConnection>& connections, const Settings& settings, const std::string& file);
 
 /// Whether a topic is what one of these estimators, or the datum, wrote in an earlier run.
 bool isEstimate(const std::string& topic, const std::vector<std::string>& estimators);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <string>
 
@@ -28,6 +30,7 @@ class TumFile {
   std::string path_;
   AtomicFile file_;
   std::FILE* stream_;
+  fmt::memory_buffer line_;
 };
 
 }  // namespace sas_motion::ros_side

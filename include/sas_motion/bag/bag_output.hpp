@@ -3,32 +3,14 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "sas_motion/bag/bag_writer.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 
 namespace sas_motion::ros_side {
-
-/// Opens a bag for reading. Throws std::runtime_error: one sentence that names the file and says what to do (missing, not a bag, without
-/// an index, cut short).
-std::unique_ptr<rosbag::Bag> openBag(const std::string& path);
-
-/// Runs `read`; what rosbag throws halfway through a damaged bag becomes a std::runtime_error that names the file.
-template <class Read>
-auto readBag(const std::string& path, const Read& read) {
-  try {
-    return read();
-  } catch (const ros::Exception& error) {
-    throw std::runtime_error(fmt::format("{}: is damaged ({}); 'rosbag reindex' may save what is whole", path, error.what()));
-  }
-}
 
 /// A bag that appears under its name only when it is whole.
 class BagOutput {
@@ -45,8 +27,12 @@ class BagOutput {
   void writeLatched(const std::string& topic, ros::Time time, const Message& message) {
     guarded([&] { writer_.write(topic, time, message, true); });
   }
-  /// A message of another bag, as it is there.
-  void copy(const rosbag::MessageInstance& message);
+  /// The connection here of one in another bag.
+  std::uint32_t connect(const BagConnection& source) { return writer_.connect(source); }
+  /// A message as it is, of a connection that connect() gave.
+  void write(std::uint32_t connection, ros::Time time, bag_format::Bytes message) {
+    guarded([&] { writer_.write(connection, time, message); });
+  }
   /// No more is written.
   void close();
   /// Closes and puts in place.
@@ -54,11 +40,9 @@ class BagOutput {
 
  private:
   template <class Action>
-  auto guarded(const Action& action) {
+  auto guarded(const Action& action) -> decltype(action()) {
     try {
       return action();
-    } catch (const ros::Exception&) {
-      throw;  // of the bag that is read
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(fmt::format("{}: could not be written ({}); is the disk full?", path_, error.what()));
     }
@@ -68,8 +52,5 @@ class BagOutput {
   AtomicFile file_;
   BagWriter writer_;
 };
-
-/// A topic's name without its leading slash: bags recorded live have one, bags written by tools often not.
-inline std::string bareTopic(const std::string& topic) { return !topic.empty() && topic[0] == '/' ? topic.substr(1) : topic; }
 
 }  // namespace sas_motion::ros_side
