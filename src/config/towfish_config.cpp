@@ -71,6 +71,19 @@ void readMixture(YamlSection yaml, MixtureKalmanFilter<kStates>::Options& option
   yaml.finish();
 }
 
+void readBank(YamlSection yaml, BankKalmanFilter<kStates>::Options& options) {
+  yaml.number("epoch", options.epoch, {1e-3, 3600});
+  yaml.number("jump_probability", options.jump_probability, {1e-6, 0.199});
+  yaml.number("jump_scale", options.jump_scale, {1, 1e6});
+  readFour(yaml, "scales", options.scales, kTiny);
+  readFour(yaml, "probabilities", options.probabilities, kTiny);
+  yaml.number("sticky", options.sticky, {0, 0.99});
+  yaml.number("repeat", options.repeat, {0, 1});
+  yaml.number("burst", options.burst, {0, 1e6});
+  yaml.number("patience", options.patience, {kTiny, 1e6});
+  yaml.finish();
+}
+
 void readSmoother(YamlSection yaml, SmootherOptions& options) {
   readLoss(yaml, options.loss);
   yaml.integer("max_iterations", options.max_iterations, 1, 10000);
@@ -91,6 +104,7 @@ void readEstimators(YamlSection yaml, Config& config) {
   gated.number("probability", config.gated_kf.probability, {0.5, 0.999999});
   gated.finish();
   readMixture(yaml.section("mixture_kf"), config.mixture_kf);
+  readBank(yaml.section("bank_kf"), config.bank_kf);
   readSmoother(yaml.section("rts"), config.rts);
   readSmoother(yaml.section("batch"), config.batch);
   auto gnc = yaml.section("gnc");

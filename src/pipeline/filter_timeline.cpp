@@ -26,6 +26,7 @@ Audit auditOf(const Measurement& z, const Update<Belief, M>& update) {
   audit.weights.template head<M>() = update.weights;
   audit.iterations = update.iterations;
   audit.verdict = update.verdict;
+  audit.hypotheses = hypothesisWeights(update.belief);
   if (update.verdict == Verdict::Invalid) audit.reason = "numerically singular";
   if (update.verdict == Verdict::Rejected) audit.reason = "outside the gate";
   if (update.verdict == Verdict::DownWeighted) audit.reason = "residual too large for its noise";
@@ -173,6 +174,7 @@ void FilterTimeline<Filter>::reset() {
   stale_in_a_row_ = 0;
 }
 
+template class FilterTimeline<BankKalmanFilter<kStates>>;
 template class FilterTimeline<KalmanFilter<kStates>>;
 template class FilterTimeline<ReacquiringFilter<GatedKalmanFilter<kStates>, kStates>>;
 template class FilterTimeline<ReacquiringFilter<MixtureKalmanFilter<kStates>, kStates>>;

@@ -200,6 +200,7 @@ sas_motion::FilterUpdate updateOf(const Audit& audit) {
   update.verdict = static_cast<std::uint8_t>(audit.verdict);
   update.reason = audit.reason;
   update.iterations = static_cast<std::uint32_t>(audit.iterations);
+  if (audit.hypotheses[0] > 0) update.hypotheses.assign(audit.hypotheses.begin(), audit.hypotheses.end());
   return update;
 }
 

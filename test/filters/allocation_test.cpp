@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "sas_motion/filters/bank_kalman_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/reacquiring_filter.hpp"
@@ -65,6 +66,7 @@ TEST(Allocation, PredictAndUpdateUseNoHeap) {
   expectNoAllocation("kf", KalmanFilter<kStates>());
   using Reacquiring = ReacquiringFilter<GatedKalmanFilter<kStates>, kStates>;
   expectNoAllocation("gated_kf", Reacquiring(GatedKalmanFilter<kStates>({}), 1));
+  expectNoAllocation("bank_kf", BankKalmanFilter<kStates>({}));
   expectNoAllocation("mixture_kf", MixtureKalmanFilter<kStates>({}));
   expectNoAllocation("student_t_kf", StudentTKalmanFilter<kStates>({}));
   for (const auto& name : lossNames())

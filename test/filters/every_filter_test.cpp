@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sas_motion/filters/bank_kalman_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
@@ -24,6 +25,9 @@ RobustKalmanFilter<6>::Options robust(LossKind kind, bool process = false) {
 }
 
 struct Kf : KalmanFilter<6> {};
+struct Bank : BankKalmanFilter<6> {
+  Bank() : BankKalmanFilter(Options{}) {}
+};
 struct Gated : GatedKalmanFilter<6> {
   Gated() : GatedKalmanFilter(Options{}) {}
 };
@@ -58,7 +62,7 @@ class EveryFilter : public ::testing::Test {
   }
 };
 
-using Filters = ::testing::Types<Kf, Gated, Mixture, StudentT, Huber, Tukey, HuberBoth>;
+using Filters = ::testing::Types<Kf, Bank, Gated, Mixture, StudentT, Huber, Tukey, HuberBoth>;
 TYPED_TEST_SUITE(EveryFilter, Filters);
 
 TYPED_TEST(EveryFilter, RefusesWhatIsNoMeasurementAndStaysAtThePrior) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sas_motion/config/yaml_section.hpp"
+#include "sas_motion/filters/bank_kalman_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
@@ -39,6 +40,7 @@ struct Config {
   RobustKalmanFilter<kStates>::Options robust_kf;
   RobustKalmanFilter<kStates>::Options mckf;
   MixtureKalmanFilter<kStates>::Options mixture_kf;
+  BankKalmanFilter<kStates>::Options bank_kf;
   StudentTKalmanFilter<kStates>::Options student_t_kf;
   GatedKalmanFilter<kStates>::Options gated_kf;
   SmootherOptions rts;

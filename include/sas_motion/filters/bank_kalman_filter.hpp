@@ -28,7 +28,7 @@ struct BankHypothesis {
 /// A bank's belief: its summary, the hypotheses behind it, and what it has learned of process and sensors.
 template <int N>
 struct BankBelief {
-  static constexpr int kHypotheses = 9;
+  static constexpr int kHypotheses = std::tuple_size_v<HypothesisWeights>;
   static constexpr int kScales = 4;
   struct Learned {
     int key = -1;  ///< sensor and row; -1 where the place is free
@@ -49,6 +49,13 @@ struct BankBelief {
 template <int N>
 const Gaussian<N>& gaussian(const BankBelief<N>& belief) {
   return belief.summary;
+}
+
+template <int N>
+HypothesisWeights hypothesisWeights(const BankBelief<N>& belief) {
+  HypothesisWeights weights;
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = belief.hypotheses[i].weight;
+  return weights;
 }
 
 /// Kalman filter that keeps several explanations open: a bank of Gaussians, told apart by when the process last jumped, each with

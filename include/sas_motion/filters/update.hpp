@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+
 #include "sas_motion/math/gaussian.hpp"
 
 namespace sas_motion {
@@ -27,6 +29,14 @@ struct Update {
   bool converged = true;  ///< false where the iteration's bound came before its fixed point
   Verdict verdict = Verdict::Accepted;
 };
+
+/// Probabilities of the explanations that a belief keeps open; all zero where it keeps one.
+using HypothesisWeights = std::array<double, 9>;
+
+template <class Belief>
+HypothesisWeights hypothesisWeights(const Belief&) {
+  return {};
+}
 
 constexpr double kDownWeighted = 0.5;  ///< a row below this weight counts as down-weighted
 

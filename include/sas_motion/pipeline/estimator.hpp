@@ -29,6 +29,7 @@ struct Audit {
   Matrix<2> S = Matrix<2>::Zero();
   double nis = 0;
   Vector<2> weights = Vector<2>::Ones();
+  HypothesisWeights hypotheses{};  ///< of a filter that keeps several
   int iterations = 0;
   Verdict verdict = Verdict::Accepted;
   const char* reason = "";  ///< plain words, a literal; empty where there is nothing to say
@@ -66,7 +67,7 @@ class Estimator {
   virtual void reset() = 0;
 };
 
-/// kf, gated_kf, robust_kf, student_t_kf, mckf, mixture_kf or rts, or robust_kf_LOSS (e.g. robust_kf_cauchy) for robust_kf with that loss at its
+/// kf, gated_kf, robust_kf, student_t_kf, mckf, mixture_kf, bank_kf or rts, or robust_kf_LOSS (e.g. robust_kf_cauchy) for robust_kf with that loss at its
 /// customary tuning; null for any other name.
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
 
