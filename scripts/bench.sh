@@ -35,3 +35,11 @@ echo; echo "bench: reprocess beside a bare pass over the bag, and memory against
 
 echo; echo "bench: nodelet, callback to publication at 100 messages a second"
 /usr/bin/python3 "$root/benchmark/nodelet_latency.py" "$tools" "$out" $((smoke == 1 ? 20 : 60))
+
+echo; echo "bench: our answers and other people's code's"
+if env -u PYTHONPATH "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$root/benchmark/peers/requirements.txt"; then
+  env -u PYTHONPATH "$venv/bin/python" "$root/benchmark/cross_check.py" "$tools" $((smoke == 1 ? 20 : 200)) $((smoke == 1 ? 50 : 200))
+else
+  echo "bench: NOT CHECKED by other people's code: benchmark/peers/requirements.txt could not be installed" >&2
+  [ "$smoke" = 1 ] || exit 1  # a smoke run goes on without a network
+fi

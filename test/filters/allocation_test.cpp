@@ -10,6 +10,7 @@
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/reacquiring_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
+#include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
 #include "sas_motion/models/towfish.hpp"
 #include "support.hpp"
@@ -54,6 +55,22 @@ void expectNoAllocation(const char* name, const Filter& filter) {
   EXPECT_TRUE(gaussian(belief).mean.allFinite());
 }
 
+template <int Count>
+void expectNoAllocation(const char* name, const SigmaPointFilter<kStates, Count>& filter) {
+  const towfish::Model model{towfish::MotionParameters()};
+  const auto f = [&](const Vector<kStates>& x) { return model.predict(x, {0.01}, 0.1); };
+  const auto h = [](const Vector<kStates>& x) -> Vector<2> { return {std::hypot(x(0) - 30, x(1)), x(4)}; };
+  Gaussian<kStates> belief;  // zero and the identity
+  const Matrix<kStates> Q = 0.01 * Matrix<kStates>::Identity();
+  const long before = allocations;
+  for (int i = 0; i < 20; ++i) {
+    belief = filter.predict(belief, f, Q, towfish::Model::difference).value();
+    belief = filter.update(belief, Vector<2>(29, 0.1), h, Matrix<2>(Matrix<2>::Identity())).belief;
+  }
+  EXPECT_EQ(allocations - before, 0) << name;
+  EXPECT_TRUE(belief.mean.allFinite());
+}
+
 TEST(Allocation, PredictAndUpdateUseNoHeap) {
 #ifdef SAS_MOTION_CANNOT_COUNT
   GTEST_SKIP() << "allocations cannot be counted here";
@@ -69,6 +86,8 @@ TEST(Allocation, PredictAndUpdateUseNoHeap) {
   expectNoAllocation("bank_kf", BankKalmanFilter<kStates>({}));
   expectNoAllocation("mixture_kf", MixtureKalmanFilter<kStates>({}));
   expectNoAllocation("student_t_kf", StudentTKalmanFilter<kStates>({}));
+  expectNoAllocation("ckf", SigmaPointFilter(cubaturePoints<kStates>()));
+  expectNoAllocation("ukf", SigmaPointFilter(unscentedPoints<kStates>({})));
   for (const auto& name : lossNames())
     for (const bool process : {false, true}) {
       RobustKalmanFilter<kStates>::Options options;

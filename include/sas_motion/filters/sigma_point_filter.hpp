@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "sas_motion/filters/conditioning.hpp"
+#include "sas_motion/filters/sigma_points.hpp"
+
+namespace sas_motion {
+
+/// y - x where nothing wraps.
+struct PlainDifference {
+  template <class V>
+  V operator()(const V& y, const V& x) const {
+    return y - x;
+  }
+};
+
+/// A Gaussian filter that needs no Jacobians: it sends points through f and h and fits a Gaussian to where they land. With cubature points
+/// this is the CKF [Arasaratnam2009], with unscented points the UKF [Julier2004].
+///
+/// f and h take and return fixed-size vectors. `difference(y, x)` is y - x with angles wrapped; means are formed of differences from the
+/// image of the mean, so that points on both sides of +-pi average rightly. Noise is additive and the points are drawn anew for every update.
+template <int N, int Count>
+class SigmaPointFilter {
+ public:
+  using Belief = Gaussian<N>;
+
+  explicit SigmaPointFilter(const SigmaPoints<N, Count>& points) : points_(points) {}
+
+  /// The belief after x' = f(x) + w, w ~ N(0, Q), or nothing where a covariance is not positive definite or a value not finite.
+  template <class Function, class Difference = PlainDifference>
+  std::optional<Belief> predict(const Belief& belief, const Function& f, const Matrix<N>& Q, const Difference& difference = {}) const {
+    const auto L = choleskyLower<N>(belief.covariance);
+    if (!L) return std::nullopt;
+    const auto image = transform<N>(belief.mean, *L * points_.offsets, f, difference);
+    Belief prior{image.mean, Q + secondMoment<N, N>(image.deviations, image.deviations)};
+    symmetrize(prior.covariance);
+    if (!prior.mean.allFinite() || !choleskyLower<N>(prior.covariance)) return std::nullopt;
+    return prior;
+  }
+
+  /// The belief after reading z = h(x) + v, v ~ N(0, R). The innovation is z less the mean of h over the prior, not h of its mean.
+  template <int M, class Function, class Difference = PlainDifference>
+  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) const {
+    Update<Belief, M> result;
+    result.belief = prior;
+    result.verdict = Verdict::Invalid;
+    const auto L = choleskyLower<N>(prior.covariance);
+    if (!L || !positiveDefinite<M>(R)) return result;
+
+    const Matrix<N, Count> dX = *L * points_.offsets;
+    const auto image = transform<M>(prior.mean, dX, h, difference);
+    result.innovation = difference(z, image.mean);
+    result.S = R + secondMoment<M, M>(image.deviations, image.deviations);
+    const Innovation<M> S(result.S);
+    result.nis = result.innovation.dot(S.solve(result.innovation));
+    if (!S.valid() || !std::isfinite(result.nis)) return result;
+
+    const Matrix<N, M> K = S.solve(secondMoment<M, N>(image.deviations, dX)).transpose();
+    // P - K S K^T as a sum of squares, as Joseph's form is for a linear h: with weights that are not negative it cannot lose its sign.
+    const Matrix<N, Count> residuals = dX - K * image.deviations;
+    Belief posterior{prior.mean + K * result.innovation, secondMoment<N, N>(residuals, residuals) + K * R * K.transpose()};
+    symmetrize(posterior.covariance);
+    if (!posterior.mean.allFinite() || !choleskyLower<N>(posterior.covariance)) return result;
+    result.belief = posterior;
+    result.verdict = Verdict::Accepted;
+    return result;
+  }
+
+ private:
+  /// Where the points land: their mean and each one's difference from it.
+  template <int M>
+  struct Image {
+    Vector<M> mean;
+    Matrix<M, Count> deviations;
+  };
+
+  template <int M, class Function, class Difference>
+  Image<M> transform(const Vector<N>& x, const Matrix<N, Count>& dX, const Function& function, const Difference& difference) const {
+    const Vector<M> reference = function(x);
+    Matrix<M, Count> landed, offsets;
+    for (int i = 0; i < Count; ++i) {
+      landed.col(i) = function(Vector<N>(x + dX.col(i)));
+      offsets.col(i) = difference(Vector<M>(landed.col(i)), reference);
+    }
+    Image<M> image{reference + offsets * points_.mean_weights, {}};
+    for (int i = 0; i < Count; ++i) image.deviations.col(i) = difference(Vector<M>(landed.col(i)), image.mean);
+    return image;
+  }
+
+  template <int A, int B>
+  Matrix<A, B> secondMoment(const Matrix<A, Count>& a, const Matrix<B, Count>& b) const {
+    return a * points_.covariance_weights.asDiagonal() * b.transpose();
+  }
+
+  SigmaPoints<N, Count> points_;
+};
+
+template <int N>
+using CubatureKalmanFilter = SigmaPointFilter<N, 2 * N>;
+template <int N>
+using UnscentedKalmanFilter = SigmaPointFilter<N, 2 * N + 1>;
+
+}  // namespace sas_motion

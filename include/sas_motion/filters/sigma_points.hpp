@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "sas_motion/math/types.hpp"
+
+namespace sas_motion {
+
+/// Points that stand for a standard normal N-vector: their weighted mean is 0 and their weighted covariance the identity.
+template <int N, int Count>
+struct SigmaPoints {
+  Matrix<N, Count> offsets;          ///< xi, a point each column; x + L xi are the points of N(x, L L^T)
+  Vector<Count> mean_weights;        ///< add up to 1
+  Vector<Count> covariance_weights;  ///< of outer products about the mean
+};
+
+/// The 2N points of the third-degree spherical-radial cubature rule: +-sqrt(N) along every axis, all of the same weight. [Arasaratnam2009]
+template <int N>
+SigmaPoints<N, 2 * N> cubaturePoints() {
+  SigmaPoints<N, 2 * N> points;
+  points.offsets << std::sqrt(N) * Matrix<N>::Identity(), -std::sqrt(N) * Matrix<N>::Identity();
+  points.mean_weights.setConstant(1.0 / (2 * N));
+  points.covariance_weights = points.mean_weights;
+  return points;
+}
+
+/// Of the scaled unscented transform.
+struct UnscentedOptions {
+  double alpha = 1;  ///< spread of the points [-]; far below 1 the weights are huge and digits are lost
+  double beta = 2;   ///< 2 is best for a normal distribution [-]
+  double kappa = 0;  ///< [-]
+};
+
+/// The mean and 2N points +-alpha sqrt(N + kappa) along every axis. Throws std::invalid_argument where the spread is not positive. [Merwe2004]
+template <int N>
+SigmaPoints<N, 2 * N + 1> unscentedPoints(const UnscentedOptions& options) {
+  const double spread = options.alpha * options.alpha * (N + options.kappa);  // n + lambda
+  if (!(spread > 0) || !std::isfinite(spread) || !std::isfinite(options.beta))
+    throw std::invalid_argument("alpha^2 (n + kappa) is " + std::to_string(spread) + " but must be positive, and beta finite");
+  SigmaPoints<N, 2 * N + 1> points;
+  points.offsets << Vector<N>::Zero(), std::sqrt(spread) * Matrix<N>::Identity(), -std::sqrt(spread) * Matrix<N>::Identity();
+  points.mean_weights.setConstant(0.5 / spread);
+  points.mean_weights(0) = 1 - N / spread;
+  points.covariance_weights = points.mean_weights;
+  points.covariance_weights(0) += 1 - options.alpha * options.alpha + options.beta;
+  return points;
+}
+
+}  // namespace sas_motion
