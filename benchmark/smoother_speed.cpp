@@ -24,7 +24,7 @@ std::vector<Measurement> measurements(int nodes, std::uint64_t seed) {
   scenario.duration = (nodes - 1) * scenario.step;
   scenario.motion = {0.1, 300, 0.2 * kRadPerDeg, 0.02, 0.01};
   const std::map<Sensor, double> sigmas{{Sensor::Position, 1}, {Sensor::Heading, 0.5 * kRadPerDeg}, {Sensor::Speed, 0.05}};
-  for (const auto& [sensor, sigma] : sigmas) scenario.sensor(sensor) = {10, 0, sigma, {NoiseLaw::Kind::Contaminated, 0.1, 10}};
+  for (const auto& [sensor, sigma] : sigmas) scenario.sensor(sensor) = {10, 0, sigma, NoiseLaw{NoiseLaw::Kind::Contaminated, 0.1, 10}};
   std::vector<Measurement> all;
   Simulator simulator(scenario, seed);
   while (simulator.next())

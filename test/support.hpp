@@ -67,7 +67,7 @@ double relativeDifference(const A& a, const B& b) {
 }
 
 /// The paper's scenario, shortened, with the same noise law on every sensor.
-inline towfish::Scenario zhu2007(double duration, const NoiseLaw& noise = {}) {
+inline towfish::Scenario zhu2007(double duration, const NoiseMix& noise = {}) {
   auto scenario = towfish::Scenario::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/scenarios/zhu2007.yaml");
   scenario.duration = duration;
   for (auto& sensor : scenario.sensors) sensor.noise = noise;

@@ -41,6 +41,8 @@ void YamlSection::fail(const std::string& key, const std::string& what) const { 
 
 bool YamlSection::has(const std::string& key) const { return node_.IsMap() && node_[key].IsDefined(); }
 
+bool YamlSection::isList(const std::string& key) const { return has(key) && node_[key].IsSequence(); }
+
 YAML::Node YamlSection::take(const std::string& key) {
   asked_.insert(key);
   return has(key) ? node_[key] : YAML::Node(YAML::NodeType::Undefined);

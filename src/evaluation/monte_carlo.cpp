@@ -43,13 +43,12 @@ struct SimulatedRun {
   Stamp step;
 };
 
-Measurement toldTheTruth(LabelledMeasurement labelled, double K) {
-  for (int row = 0; row < 2; ++row)
-    if (labelled.outlier[static_cast<std::size_t>(row)]) labelled.z.variance(row) *= K * K;
+Measurement toldTheTruth(LabelledMeasurement labelled) {
+  for (int row = 0; row < 2; ++row) labelled.z.variance(row) *= labelled.variance[static_cast<std::size_t>(row)];
   return labelled.z;
 }
 
-RunResult runEstimator(const Campaign& campaign, const SimulatedRun& run, double K, const std::string& name, const EstimatorFactory& make) {
+RunResult runEstimator(const Campaign& campaign, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make) {
   const bool oracle = name == kOracle;
   const auto estimator = make(oracle ? "kf" : name, campaign.config);
   const Stamp from = Simulator::kStart + stampFromSeconds(campaign.skip);
@@ -59,7 +58,7 @@ RunResult runEstimator(const Campaign& campaign, const SimulatedRun& run, double
   result.estimator = name;
   result.measurements = run.measurements.size();
   const double begin = cpuSeconds();
-  for (const auto& labelled : run.measurements) estimator->process(oracle ? toldTheTruth(labelled, K) : labelled.z, output);
+  for (const auto& labelled : run.measurements) estimator->process(oracle ? toldTheTruth(labelled) : labelled.z, output);
   estimator->finish(output);
   result.seconds = cpuSeconds() - begin;
   for (const auto& estimate : output.estimates)
@@ -104,7 +103,7 @@ Campaign Campaign::fromFile(const std::string& file) {
   for (auto& item : yaml.list("laws")) {
     CampaignLaw law;
     item.text("name", law.name);
-    if (item.has("noise")) law.noise = NoiseLaw::read(item.section("noise"));
+    if (item.has("noise")) law.noise = NoiseMix::read(item, "noise");
     item.finish();
     if (law.name.empty()) law.name = law.noise ? law.noise->name() : "as in the scenario";
     campaign.laws.push_back(law);
@@ -116,15 +115,12 @@ Campaign Campaign::fromFile(const std::string& file) {
 
 std::vector<RunResult> runOnce(const Campaign& campaign, const CampaignLaw& law, std::uint64_t seed, const EstimatorFactory& make) {
   Scenario scenario = campaign.scenario;
-  double K = 1;
-  for (auto& sensor : scenario.sensors) {
+  for (auto& sensor : scenario.sensors)
     if (law.noise && &sensor != &scenario.sensor(Sensor::TurnRate)) sensor.noise = *law.noise;
-    K = std::max(K, sensor.noise.K);
-  }
   const SimulatedRun run(scenario, seed);
   std::vector<RunResult> results;
   for (const auto& name : campaign.estimators) {
-    results.push_back(runEstimator(campaign, run, K, name, make));
+    results.push_back(runEstimator(campaign, run, name, make));
     results.back().law = law.name;
     results.back().seed = seed;
   }

@@ -30,7 +30,7 @@ void readSensor(YamlSection yaml, Sensor sensor, double step, SimulatedSensor& o
     yaml.angle("sigma_deg", options.sigma, {kTiny, 180});
   else
     yaml.number("sigma", options.sigma, {kTiny, 1e4});
-  options.noise = NoiseLaw::read(yaml.section("noise"));
+  options.noise = NoiseMix::read(yaml, "noise");
   if (options.rate > 0) requireMultiple(yaml, "rate", 1 / options.rate, step);
   requireMultiple(yaml, "phase", options.phase, step);
   yaml.finish();
@@ -45,7 +45,7 @@ void readTruth(YamlSection yaml, Scenario& scenario) {
   yaml.number("speed", scenario.speed, {0, 50});
   readVector2(yaml, "current", scenario.current);
   readMotionParameters(yaml.section("motion"), scenario.motion);
-  scenario.process = NoiseLaw::read(yaml.section("process"));
+  scenario.process = NoiseMix::read(yaml, "process", NoiseUse::Process);
   auto front = yaml.section("front");
   front.number("time", scenario.front.time, {0, 1e7});
   front.number("width", scenario.front.width, {kTiny, 1e6});

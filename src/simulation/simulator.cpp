@@ -25,8 +25,8 @@ struct Waves {
 
 }  // namespace
 
-Simulator::Simulator(const Scenario& scenario, std::uint64_t seed) : scenario_(scenario), model_(scenario.motion), current_noise_(seed, kCurrentStream) {
-  for (std::uint64_t i = 0; i < kStates; ++i) process_.emplace_back(scenario.process, seed, kProcessStream + i);
+Simulator::Simulator(const Scenario& scenario, std::uint64_t seed)
+    : scenario_(scenario), model_(scenario.motion), process_(scenario.process, kStates, seed, kProcessStream), current_noise_(seed, kCurrentStream) {
   for (std::uint64_t i = 0; i < 2 * kSensors; ++i) sensor_.emplace_back(scenario.sensors[i / 2].noise, seed, kSensorStream + i);
   Random waves(seed, kWaveStream);
   for (auto& phase : phases_) phase = 2 * kPi * waves.uniform();
@@ -51,9 +51,9 @@ bool Simulator::next() {
 void Simulator::moveRandomWalk() {
   const auto step = model_.transition(truth_.state, Input{}, scenario_.step);
   const StateMatrix root = step.Q.llt().matrixL();
-  StateVector noise;
-  for (int i = 0; i < kStates; ++i) noise(i) = process_[static_cast<std::size_t>(i)].draw(time()).value;
-  truth_.state = step.mean + root * noise;
+  const auto noise = process_.draw(time());
+  truth_.state = step.mean + root * noise.value;
+  truth_.process_variance = noise.variance;
   truth_.state(kHeading) = wrapAngle(truth_.state(kHeading));
 }
 
@@ -111,14 +111,30 @@ void Simulator::measure() {
     z.variance.setConstant(options.sigma * options.sigma);
     if (sensor == Sensor::Position) z.lever_arm_body = scenario_.gnss_lever_arm_body;
     z.value = sensor == Sensor::TurnRate ? Vector<2>(truth_.turn_rate, 0) : Model::expected(z, truth_.state);
-    for (int row = 0; row < std::max(1, rowsOf(sensor)); ++row) {
-      const NoiseSample noise = sensor_[static_cast<std::size_t>(2 * i + row)].draw(time());
-      z.value(row) += options.sigma * noise.value;
-      labelled.outlier[static_cast<std::size_t>(row)] = noise.outlier;
-    }
-    if (sensor == Sensor::Heading) z.value(0) = wrapAngle(z.value(0));
-    measurements_.push_back(labelled);
+    if (draw(options, labelled)) measurements_.push_back(labelled);
   }
+}
+
+bool Simulator::draw(const SimulatedSensor& options, LabelledMeasurement& labelled) {
+  Measurement& z = labelled.z;
+  const auto sensor = static_cast<std::size_t>(z.sensor);
+  bool missing = false;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(std::max(1, rowsOf(z.sensor))); ++row) {
+    const NoiseSample noise = sensor_[2 * sensor + row].draw(time());
+    double& value = z.value(static_cast<Eigen::Index>(row));
+    value += options.sigma * noise.value;
+    const double quantum = options.sigma * noise.quantum;
+    if (quantum > 0) value = quantum * std::round(value / quantum);
+    if (noise.frozen && measured_[sensor]) value = last_value_[sensor](static_cast<Eigen::Index>(row));
+    labelled.outlier[row] = noise.outlier;
+    labelled.variance[row] = noise.variance;
+    missing |= row == 0 && noise.missing;  // a measurement is lost as a whole
+  }
+  if (z.sensor == Sensor::Heading) z.value(0) = wrapAngle(z.value(0));
+  if (missing) return false;
+  last_value_[sensor] = z.value;
+  measured_[sensor] = true;
+  return true;
 }
 
 }  // namespace sas_motion::towfish

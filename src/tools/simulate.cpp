@@ -62,7 +62,7 @@ class Recorder {
     sensor_msgs::Imu imu;
     imu.orientation_covariance[0] = imu.angular_velocity_covariance[0] = imu.linear_acceleration_covariance[0] = -1;
     bool has_imu = false;
-    for (const auto& [z, outlier] : measurements) {
+    for (const auto& [z, outlier, variance] : measurements) {
       const ros::Time time = timeOf(z.stamp);
       if (z.sensor == Sensor::Position) bag_.write("gnss/fix", time, fix(z));
       if (z.sensor == Sensor::Speed) bag_.write("dvl/twist", time, twist(z));

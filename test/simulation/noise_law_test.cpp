@@ -2,80 +2,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/simulation/noise_law.hpp"
 
-#include <cmath>
-
 #include "support.hpp"
 
 namespace sas_motion {
 namespace {
 
-constexpr int kDraws = 200000;
-
-TEST(NoiseLaw, ContaminatedHasItsShareOfOutliersAndTheirVariance) {
-  for (const auto& [epsilon, K] : {std::pair{0.1, 10.0}, {0.4, 100.0}}) {
-    NoiseSource source(testing::contaminated(epsilon, K), 1, 2);
-    std::cout << "seed 1, stream 2\n";
-    int outliers = 0;
-    double good = 0, bad = 0;
-    for (int i = 0; i < kDraws; ++i) {
-      const auto sample = source.draw(0.1 * i);
-      outliers += sample.outlier;
-      (sample.outlier ? bad : good) += sample.value * sample.value;
-    }
-    EXPECT_NEAR(outliers / double(kDraws), epsilon, 5 * std::sqrt(epsilon * (1 - epsilon) / kDraws));
-    EXPECT_NEAR(good / (kDraws - outliers), 1, 5 * std::sqrt(2.0 / (kDraws - outliers)));
-    EXPECT_NEAR(bad / outliers / (K * K), 1, 5 * std::sqrt(2.0 / outliers));
-  }
-}
-
-TEST(NoiseLaw, ContaminationLeavesTheGoodDrawsAsTheyWere) {
-  NoiseSource plain({}, 3, 4), mixed(testing::contaminated(0.3, 20), 3, 4);
-  int outliers = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const auto a = plain.draw(i), b = mixed.draw(i);
-    EXPECT_FALSE(a.outlier);
-    EXPECT_DOUBLE_EQ(b.value, b.outlier ? 20 * a.value : a.value);
-    outliers += b.outlier;
-  }
-  EXPECT_GT(outliers, 200);
-}
-
-TEST(NoiseLaw, BurstsComeAtTheirRateLastTheirLengthAndAreBiased) {
-  const NoiseLaw law{NoiseLaw::Kind::Burst, 0, 20, 0.02, 3};
-  NoiseSource source(law, 5, 6);
-  std::cout << "seed 5, stream 6\n";
-  const double step = 0.1;
-  int bursts = 0, biased = 0, length = 0;
-  bool before = false;
-  double sum = 0;
-  for (int i = 0; i < kDraws; ++i) {
-    const auto sample = source.draw(i * step);
-    if (sample.outlier && !before) {
-      ++bursts;
-      length = 0;
-    }
-    length += sample.outlier;
-    if (!sample.outlier && before) {
-      EXPECT_GE(length, 29);  // two that touch count as one
-    }
-    if (sample.outlier) {
-      ++biased;
-      sum += sample.value;
-    }
-    before = sample.outlier;
-  }
-  const double expected = kDraws * step / (1 / law.rate + law.length);  // quiet spells last 1 / rate
-  EXPECT_NEAR(bursts, expected, 5 * std::sqrt(expected));
-  EXPECT_NEAR(sum / biased, 20, 5 / std::sqrt(biased));
-}
+NoiseLaw read(const std::string& text, NoiseUse use = NoiseUse::Sensor) { return NoiseLaw::read(YamlSection::fromText(text, "inline"), use); }
 
 TEST(NoiseLaw, ReadsItselfAndSaysItsName) {
-  const auto law = NoiseLaw::read(YamlSection::fromText("{law: contaminated, epsilon: 0.1, K: 10}", "inline"));
-  EXPECT_EQ(law.name(), "contaminated(0.1,10)");
+  EXPECT_EQ(read("{law: contaminated, epsilon: 0.1, K: 10}").name(), "contaminated(0.1,10)");
+  EXPECT_EQ(read("{law: burst, rate: 0.005, length: 10, K: 20}").name(), "burst(0.005/s,10 s,20)");
+  EXPECT_EQ(read("{law: student_t, nu: 3}").name(), "student_t(3)");
+  EXPECT_EQ(read("{law: step, bias: 5, t0: 10, t1: 20}").name(), "step(5,10 s,20 s)");
+  EXPECT_EQ(read("{law: ramp, slope: 0.5, t0: 10}").name(), "ramp(0.5/s,10 s)");
+  EXPECT_EQ(read("{law: dropout, probability: 0.2}").name(), "dropout(0.2)");
+  EXPECT_EQ(read("{law: multipath, probability: 0.1, mean: 8}").name(), "multipath(0.1,8)");
+  EXPECT_EQ(read("{law: correlated, time_constant: 5, share: 0.5}").name(), "correlated(5 s,0.5)");
+  EXPECT_EQ(read("{law: varying, period: 60, factor: 3}").name(), "varying(60 s,3)");
+  EXPECT_EQ(read("{law: quantised, quantum: 2}").name(), "quantised(2)");
+  EXPECT_EQ(read("{law: contaminated, epsilon: 0.1, K: 10, epoch: 1}", NoiseUse::Process).name(), "contaminated(0.1,10,1 s)");
+  EXPECT_EQ(read("{law: manoeuvre, rate: 0.01, length: 5, K: 10}", NoiseUse::Process).name(), "manoeuvre(0.01/s,5 s,10)");
   EXPECT_EQ(NoiseLaw().name(), "gaussian");
-  EXPECT_THROW(NoiseLaw::read(YamlSection::fromText("{law: cauchy}", "inline")), ConfigError);
-  EXPECT_THROW(NoiseLaw::read(YamlSection::fromText("{law: contaminated, epsilon: 1.1}", "inline")), ConfigError);
-  EXPECT_THROW(NoiseLaw::read(YamlSection::fromText("{law: gaussian, K: 3}", "inline")), ConfigError);  // not used, so not silent
+}
+
+TEST(NoiseLaw, RefusesWhatItDoesNotKnowOrCannotBe) {
+  EXPECT_THROW(read("{law: cauchy}"), ConfigError);
+  EXPECT_THROW(read("{law: contaminated, epsilon: 1.1}"), ConfigError);
+  EXPECT_THROW(read("{law: gaussian, K: 3}"), ConfigError);  // not used, so not silent
+  EXPECT_THROW(read("{law: step, bias: 5, t0: 20, t1: 10}"), ConfigError);
+  EXPECT_THROW(read("{law: contaminated, epsilon: 0.1, epoch: 1}"), ConfigError);  // of the process alone
+  EXPECT_THROW(read("{law: manoeuvre}"), ConfigError);
+  EXPECT_THROW(read("{law: frozen}", NoiseUse::Process), ConfigError);
+}
+
+TEST(NoiseMix, IsALawOrAListOfLawsOrNothing) {
+  auto yaml =
+      YamlSection::fromText("{one: {law: student_t, nu: 3}, two: [{law: contaminated, epsilon: 0.1, K: 10}, {law: dropout, probability: 0.1}]}", "inline");
+  EXPECT_EQ(NoiseMix::read(yaml, "one").name(), "student_t(3)");
+  EXPECT_EQ(NoiseMix::read(yaml, "two").name(), "contaminated(0.1,10) + dropout(0.1)");
+  EXPECT_EQ(NoiseMix::read(yaml, "none").name(), "gaussian");
+  yaml.finish();
+  EXPECT_EQ(NoiseMix().name(), "gaussian");
+  auto bad = YamlSection::fromText("{noise: [{law: contaminated, epsilon: 2}]}", "inline");
+  try {
+    NoiseMix::read(bad, "noise");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("noise[0].epsilon"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

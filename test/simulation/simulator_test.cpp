@@ -72,6 +72,67 @@ TEST(Simulator, MeasurementsScatterAboutTheTruthByTheirSigmaAndLabelsAreRight) {
   }
 }
 
+NoiseMix lawFrom(const std::string& text) {
+  auto yaml = YamlSection::fromText("{noise: " + text + "}", "inline");
+  return NoiseMix::read(yaml, "noise");
+}
+
+TEST(Simulator, DropoutsTakeWholeMeasurementsAndLeaveTheOthersAlone) {
+  auto scenario = testing::survey(600);
+  const auto all = simulate(scenario, 8);
+  scenario.sensor(Sensor::Position).noise = lawFrom("{law: dropout, probability: 0.25}");
+  const auto fewer = simulate(scenario, 8);
+  const double lost = static_cast<double>(all.measurements.size() - fewer.measurements.size());
+  EXPECT_NEAR(lost / 600, 0.25, 5 * std::sqrt(0.1875 / 600));
+  std::size_t i = 0;
+  for (const auto& z : fewer.measurements) {
+    while (i < all.measurements.size() && (all.measurements[i].stamp != z.stamp || all.measurements[i].sensor != z.sensor)) {
+      ASSERT_EQ(all.measurements[i].sensor, Sensor::Position);
+      ++i;
+    }
+    ASSERT_EQ(all.measurements[i++].value, z.value);
+  }
+}
+
+TEST(Simulator, AFrozenRowRepeatsItsLastReading) {
+  auto scenario = testing::survey(600);
+  scenario.sensor(Sensor::Position).noise = lawFrom("{law: frozen, rate: 0.05, length: 10}");
+  Vector<2> last = Vector<2>::Zero();
+  int frozen = 0;
+  for (const auto& labelled : simulate(scenario, 9).labelled) {
+    if (labelled.z.sensor != Sensor::Position) continue;
+    for (int row = 0; row < 2; ++row) {
+      const bool bad = labelled.outlier[static_cast<std::size_t>(row)];
+      ASSERT_EQ(labelled.z.value(row) == last(row), bad);
+      ASSERT_EQ(labelled.variance[static_cast<std::size_t>(row)], bad ? kSaysNothing : 1);
+      frozen += bad;
+    }
+    last = labelled.z.value;
+  }
+  EXPECT_GT(frozen, 100);
+}
+
+TEST(Simulator, QuantisedReadingsAreMultiplesOfTheQuantum) {
+  auto scenario = testing::survey(60);
+  scenario.sensor(Sensor::Speed).noise = lawFrom("[{law: gaussian}, {law: quantised, quantum: 2}]");
+  for (const auto& labelled : simulate(scenario, 10).labelled) {
+    if (labelled.z.sensor != Sensor::Speed) continue;
+    EXPECT_NEAR(labelled.z.value(0) / 0.1, std::round(labelled.z.value(0) / 0.1), 1e-9);  // sigma is 0.05 m/s
+    EXPECT_DOUBLE_EQ(labelled.variance[0], 1 + 4.0 / 12);
+  }
+}
+
+TEST(Simulator, TruthTellsTheProcessNoiseThatItWasDrawnWith) {
+  auto scenario = testing::zhu2007(60);
+  scenario.process = testing::contaminated(0.2, 10);
+  scenario.process.laws[0].epoch = 1;
+  const auto run = simulate(scenario, 11);
+  int large = 0;
+  for (const auto& sample : run.truth) large += sample.process_variance(0) == 100;
+  EXPECT_EQ(large % 10, 0);  // whole epochs of ten steps
+  EXPECT_GT(large, 0);
+}
+
 TEST(Simulator, ASurveyTurnsAndSailsBack) {
   auto scenario = testing::survey(600);
   scenario.heading = 0.5;

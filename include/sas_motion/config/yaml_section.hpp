@@ -32,6 +32,7 @@ class YamlSection {
   static YamlSection fromText(const std::string& text, const std::string& name);
 
   bool has(const std::string& key) const;
+  bool isList(const std::string& key) const;
   void number(const std::string& key, double& value, Range range);
   /// A key in degrees for a value in radians.
   void angle(const std::string& key_deg, double& value, Range range_deg);

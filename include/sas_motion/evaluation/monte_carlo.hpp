@@ -14,7 +14,7 @@ namespace sas_motion::towfish {
 /// One law of a campaign: the noise that all sensors of the scenario get, or its own where there is none.
 struct CampaignLaw {
   std::string name;
-  std::optional<NoiseLaw> noise;
+  std::optional<NoiseMix> noise;
 };
 
 /// Monte Carlo of one scenario: laws x seeds x estimators.
@@ -43,7 +43,7 @@ struct RunResult {
 
 using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string& name, const Config& config)>;
 
-/// The name of the reference that is told which rows are outliers, and how large: a Kalman filter with their true variance.
+/// The name of the reference that is told each row's true variance: a Kalman filter.
 constexpr const char* kOracle = "oracle_kf";
 
 /// Simulates one run once and lets every estimator of the campaign work on it.

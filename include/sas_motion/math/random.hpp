@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <boost/random/gamma_distribution.hpp>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_01.hpp>
+#include <cmath>
 #include <cstdint>
 
 namespace sas_motion {
@@ -18,6 +20,8 @@ class Random {
   double gaussian() { return normal_(engine_); }
   double uniform() { return uniform_(engine_); }
   bool bernoulli(double probability) { return uniform() < probability; }
+  double exponential() { return -std::log1p(-uniform()); }                                          ///< of mean 1
+  double gamma(double shape) { return boost::random::gamma_distribution<double>(shape)(engine_); }  ///< of scale 1
 
  private:
   static std::uint64_t mix(std::uint64_t seed, std::uint64_t stream) {  // splitmix64 [Steele2014]

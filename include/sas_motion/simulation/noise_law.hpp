@@ -2,48 +2,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "sas_motion/config/yaml_section.hpp"
-#include "sas_motion/math/random.hpp"
 
 namespace sas_motion {
 
-/// One draw of noise in units of the good standard deviation.
-struct NoiseSample {
-  double value = 0;
-  bool outlier = false;
-};
+/// Whose noise a law is for: not every law makes sense for both.
+enum class NoiseUse { Sensor, Process };
 
-/// How a sensor's noise is distributed, by name:
+/// How noise is distributed, by name; sizes are in units of the good standard deviation, times in seconds since the start.
 ///   gaussian       N(0, 1)
 ///   contaminated   (1 - epsilon) N(0, 1) + epsilon N(0, K^2), the paper's mixed normal [Zhu2007]
-///   burst          N(0, 1), and now and then (rate a second) for `length` seconds a bias of K
+///   student_t      Student's t of nu degrees of freedom
+///   burst          now and then (rate a second) for `length` seconds a bias of K
+///   step           a bias from t0 to t1
+///   ramp           a bias that grows by `slope` a second from t0 to t1, then is gone
+///   frozen         now and then for `length` seconds the last measurement again
+///   dropout        no measurement: now and then for `length` seconds, or each with its probability
+///   multipath      each with its probability longer by an exponential of this mean
+///   correlated     a share of the variance is a Gauss-Markov process
+///   varying        the standard deviation swings between 1 and factor
+///   quantised      the measurement is rounded to multiples of the quantum
+///   manoeuvre      of the process: now and then for `length` seconds, all its noise K times larger
 struct NoiseLaw {
-  enum class Kind { Gaussian, Contaminated, Burst };
+  enum class Kind { Gaussian, Contaminated, Burst, StudentT, Step, Ramp, Frozen, Dropout, Multipath, Correlated, Varying, Quantised, Manoeuvre };
   Kind kind = Kind::Gaussian;
-  double epsilon = 0;  ///< share of outliers [-]
-  double K = 1;        ///< their size in standard deviations
-  double rate = 0;     ///< bursts a second [1/s]
-  double length = 0;   ///< of a burst [s]
+  double epsilon = 0;                                   ///< share of outliers [-]
+  double K = 1;                                         ///< their size, or a burst's [-]
+  double rate = 0;                                      ///< spells a second [1/s]
+  double length = 0;                                    ///< of a spell [s]
+  double epoch = 0;                                     ///< contaminated process: one draw for all states holds this long; 0: one a state and step [s]
+  double nu = 4;                                        ///< degrees of freedom [-]
+  double bias = 0;                                      ///< [-]
+  double slope = 0;                                     ///< [1/s]
+  double t0 = 0;                                        ///< [s]
+  double t1 = std::numeric_limits<double>::infinity();  ///< [s]
+  double probability = 0;                               ///< of a draw [-]
+  double mean = 1;                                      ///< of the exponential [-]
+  double time_constant = 10;                            ///< [s]
+  double share = 0;                                     ///< of the variance [-]
+  double period = 60;                                   ///< [s]
+  double factor = 1;                                    ///< largest standard deviation [-]
+  double quantum = 0;                                   ///< [-]
 
-  static NoiseLaw read(YamlSection yaml);
+  static NoiseLaw read(YamlSection yaml, NoiseUse use = NoiseUse::Sensor);
   /// gaussian, or e.g. contaminated(0.1,10): a name for tables.
   std::string name() const;
 };
 
-/// Draws one sensor channel's noise over time; calls must have rising times.
-class NoiseSource {
- public:
-  NoiseSource(const NoiseLaw& law, std::uint64_t seed, std::uint64_t stream) : law_(law), random_(seed, stream) {}
-  NoiseSample draw(double time);
+/// Laws applied one after the other, each to what the ones before it made; none is gaussian.
+struct NoiseMix {
+  std::vector<NoiseLaw> laws;
 
- private:
-  NoiseLaw law_;
-  Random random_;
-  double burst_until_ = -1;
-  double last_time_ = 0;
+  NoiseMix() = default;
+  NoiseMix(const NoiseLaw& law) : laws{law} {}  // a law alone is a mix
+  NoiseMix(std::vector<NoiseLaw> all) : laws(std::move(all)) {}
+
+  /// What `key` holds: a law, a list of laws, or nothing.
+  static NoiseMix read(YamlSection& owner, const std::string& key, NoiseUse use = NoiseUse::Sensor);
+  std::string name() const;
 };
 
 }  // namespace sas_motion

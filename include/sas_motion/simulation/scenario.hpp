@@ -17,7 +17,7 @@ struct SimulatedSensor {
   double rate = 0;   ///< [1/s]
   double phase = 0;  ///< of its first measurement after the start [s]
   double sigma = 1;  ///< standard deviation of the good noise [m, rad, m/s, rad/s]
-  NoiseLaw noise;
+  NoiseMix noise;
 };
 
 /// A change of the current while the vessel crosses a front.
@@ -39,7 +39,7 @@ struct Scenario {
   double heading = 0;                     ///< at the start [rad]
   double speed = 2;                       ///< at the start; through the water [m/s]
   MotionParameters motion;                ///< of the random walk, and of the current in both kinds
-  NoiseLaw process;                       ///< of the random walk's noise
+  NoiseMix process;                       ///< of the random walk's noise
   Vector<2> current = Vector<2>::Zero();  ///< at the start; north, east [m/s]
   CurrentFront front;
 

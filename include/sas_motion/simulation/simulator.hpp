@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "sas_motion/simulation/noise_source.hpp"
+#include "sas_motion/simulation/process_noise.hpp"
 #include "sas_motion/simulation/scenario.hpp"
 
 namespace sas_motion::towfish {
@@ -13,13 +15,15 @@ namespace sas_motion::towfish {
 struct TruthSample {
   Stamp stamp = 0;
   StateVector state = StateVector::Zero();
-  double turn_rate = 0;  ///< [rad/s]
+  double turn_rate = 0;                                ///< [rad/s]
+  StateVector process_variance = StateVector::Ones();  ///< random walk: of the whitened noise of the step that led here, over the good one [-]
 };
 
-/// A measurement and, for each of its rows, whether its noise was an outlier.
+/// A measurement and, for each of its rows, whether its noise was an outlier and what an oracle is told of its variance.
 struct LabelledMeasurement {
   Measurement z;
   std::array<bool, 2> outlier{};
+  std::array<double, 2> variance{1, 1};  ///< over the good variance [-]
 };
 
 /// Plays a scenario step by step: truth, and what the sensors measure of it. The same scenario and seed give the same numbers.
@@ -41,13 +45,16 @@ class Simulator {
   void moveSurvey();
   void moveCurrent();
   void measure();
+  bool draw(const SimulatedSensor& sensor, LabelledMeasurement& labelled);
 
   Scenario scenario_;
   Model model_;
   long step_ = -1;
   TruthSample truth_;
-  std::vector<NoiseSource> process_;  // one a state
-  std::vector<NoiseSource> sensor_;   // two rows a sensor
+  ProcessNoise process_;
+  std::vector<NoiseSource> sensor_;               // two rows a sensor
+  std::array<Vector<2>, kSensors> last_value_{};  // of each sensor, for one that freezes
+  std::array<bool, kSensors> measured_{};         // whether there is one
   Random current_noise_;
   std::array<double, 3> phases_{};  // of the waves
   Vector<2> current_ = Vector<2>::Zero();

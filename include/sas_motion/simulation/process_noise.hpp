@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sas_motion/math/types.hpp"
+#include "sas_motion/simulation/noise_source.hpp"
+
+namespace sas_motion {
+
+/// Draws the whitened process noise of several states over time. Manoeuvres and contaminations that hold for an epoch make the noise of
+/// all states larger together; every other law is drawn for each state on its own.
+class ProcessNoise {
+ public:
+  struct Draw {
+    Eigen::VectorXd value;
+    Eigen::VectorXd variance;  ///< what an oracle is told, over the good variance [-]
+  };
+
+  /// States take the streams from `stream` on.
+  ProcessNoise(const NoiseMix& mix, int states, std::uint64_t seed, std::uint64_t stream);
+
+  /// The noise of the step that ends at `time`; calls must have rising times.
+  Draw draw(double time);
+
+ private:
+  /// A law that acts on all states.
+  struct Common {
+    NoiseLaw law;
+    Random random;
+    Spells spells;
+    long epoch;
+    bool large;
+
+    bool on(double time, double elapsed);
+  };
+
+  std::vector<NoiseSource> states_;
+  std::vector<Common> common_;
+  double last_time_ = 0;
+};
+
+}  // namespace sas_motion
