@@ -13,15 +13,16 @@
 namespace sas_motion::towfish {
 namespace {
 
-template <class Filter>
-std::unique_ptr<Estimator> timeline(const Filter& filter, const Config& config) {
-  return std::make_unique<FilterTimeline<Filter>>(filter, config);
+/// `make` builds the filter from a configuration: once here, and again for other settings.
+template <class Make>
+std::unique_ptr<Estimator> timeline(const Make& make, const Config& config) {
+  return std::make_unique<FilterTimeline<decltype(make(config))>>(make, config);
 }
 
 /// A filter that may disbelieve measurements, and so must be able to come back.
-template <class Filter>
-std::unique_ptr<Estimator> reacquiring(const Filter& filter, const Config& config) {
-  return timeline(ReacquiringFilter<Filter, kStates>(filter, config.reset_after), config);
+template <class Make>
+std::unique_ptr<Estimator> reacquiring(const Make& make, const Config& config) {
+  return timeline([make](const Config& c) { return ReacquiringFilter<decltype(make(c)), kStates>(make(c), c.reset_after); }, config);
 }
 
 const std::string kRobustPrefix = "robust_kf_";
@@ -30,25 +31,30 @@ const std::string kRobustPrefix = "robust_kf_";
 std::unique_ptr<Estimator> robustWithLoss(const std::string& loss, const Config& config) {
   const auto& names = lossNames();
   if (std::find(names.begin(), names.end(), loss) == names.end()) return nullptr;
-  auto options = config.robust_kf;
-  options.loss = Loss(lossFromName(loss));
-  return reacquiring(RobustKalmanFilter<kStates>(options), config);
+  const auto make = [kind = lossFromName(loss)](const Config& c) {
+    auto options = c.robust_kf;
+    options.loss = Loss(kind);
+    return RobustKalmanFilter<kStates>(options);
+  };
+  return reacquiring(make, config);
 }
 
 }  // namespace
 
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config) {
-  if (name == "kf") return timeline(KalmanFilter<kStates>(), config);
-  if (name == "gated_kf") return reacquiring(GatedKalmanFilter<kStates>(config.gated_kf), config);
-  if (name == "robust_kf") return reacquiring(RobustKalmanFilter<kStates>(config.robust_kf), config);
-  if (name == "mckf") return reacquiring(RobustKalmanFilter<kStates>(config.mckf), config);
-  if (name == "mixture_kf") return reacquiring(MixtureKalmanFilter<kStates>(config.mixture_kf), config);
-  if (name == "student_t_kf") return reacquiring(StudentTKalmanFilter<kStates>(config.student_t_kf), config);
+  if (name == "kf") return timeline([](const Config&) { return KalmanFilter<kStates>(); }, config);
+  if (name == "gated_kf") return reacquiring([](const Config& c) { return GatedKalmanFilter<kStates>(c.gated_kf); }, config);
+  if (name == "robust_kf") return reacquiring([](const Config& c) { return RobustKalmanFilter<kStates>(c.robust_kf); }, config);
+  if (name == "mckf") return reacquiring([](const Config& c) { return RobustKalmanFilter<kStates>(c.mckf); }, config);
+  if (name == "mixture_kf") return reacquiring([](const Config& c) { return MixtureKalmanFilter<kStates>(c.mixture_kf); }, config);
+  if (name == "student_t_kf") return reacquiring([](const Config& c) { return StudentTKalmanFilter<kStates>(c.student_t_kf); }, config);
   if (name.rfind(kRobustPrefix, 0) == 0) return robustWithLoss(name.substr(kRobustPrefix.size()), config);
   if (name == "rts")
     return std::make_unique<SmootherRecorder>(config, [options = config.rts](const SmoothingProblem& problem) { return smoothRts(problem, options); });
   return nullptr;
 }
+
+const char* Estimator::setState(const Estimate&, Output&) { return "it keeps no present state"; }
 
 const char* invalidity(const Measurement& z, const Config& config) {
   if (z.stamp <= 0) return "no stamp";
