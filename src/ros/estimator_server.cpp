@@ -100,9 +100,10 @@ void EstimatorServer::onMeasurement(const Measurement& z) {
 void EstimatorServer::publishNow(Lane& lane) {
   const auto estimate = lane.estimator->current();
   if (!estimate) return;
-  lane.published = estimate->stamp;
   lane.publisher.publishNow(*estimate, ingest_->frame() ? &*ingest_->frame() : nullptr, settings_);
-  if (publish_tf_ && &lane == &lanes_.front()) broadcast(*estimate);
+  const bool moved = estimate->stamp != lane.published;  // late data change the answer at a stamp, but tf keeps the first
+  lane.published = estimate->stamp;
+  if (publish_tf_ && moved && &lane == &lanes_.front()) broadcast(*estimate);
 }
 
 void EstimatorServer::queueSettled(Lane& lane) {
