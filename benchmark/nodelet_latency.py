@@ -1,43 +1,113 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plays a bag into the filter nodelet at 100 messages a second and prints what its diagnostics say. usage: nodelet_latency.py TOOLS OUT SECONDS"""
+"""How long the filter nodelet (kf and robust_kf) takes from callback to publication at 100 messages a second, by its own diagnostics.
+
+Alone: the nodelet, rosbag play, and a recorder of both odometries. Together: compare.launch, which adds the smoother in the
+same manager and a recorder of everything. usage: nodelet_latency.py TOOLS OUT SECONDS [RUNS]
+"""
+import contextlib
 import os
+import signal
 import socket
+import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 import rosbag
+import rosgraph
 
 SCENARIO = 'config/scenarios/survey_outliers_10.yaml'
-SENSOR_RATE = 16.0  # messages a second of the scenario
+RATE = 100 / 16.0  # the scenario has 16 messages a second
+ESTIMATORS = '[kf, robust_kf]'
+KEYS = ('callback to publication p50 [ms]', 'callback to publication p99 [ms]', 'whole callback p99 [ms]')
 
 
-def free_port():
+def new_master():
+    """Points the environment at a free port; the port."""
     with socket.socket() as s:
         s.bind(('127.0.0.1', 0))
-        return s.getsockname()[1]
+        port = s.getsockname()[1]
+    os.environ.update(ROS_IP='127.0.0.1', ROS_MASTER_URI=f'http://127.0.0.1:{port}', ROS_HOME=tempfile.mkdtemp())
+    return str(port)
+
+
+def quietly(*command):
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+
+
+@contextlib.contextmanager
+def running(*command):
+    process = quietly(*command)
+    try:
+        yield process
+    finally:
+        os.killpg(process.pid, signal.SIGINT)
+        process.wait(30)
+
+
+def wait_until(ready, seconds=30):
+    end = time.monotonic() + seconds
+    while not ready():
+        if time.monotonic() > end:
+            sys.exit('nodelet_latency: a node did not start')
+        time.sleep(0.1)
+
+
+def names(master, kind):
+    """All that is published (0), subscribed to (1) or served (2)."""
+    with contextlib.suppress(OSError, rosgraph.MasterException):
+        return {name for name, _ in master.getSystemState()[kind]}
+    return set()
+
+
+def last_diagnostics(bag):
+    values = {}
+    with rosbag.Bag(bag) as live:
+        for _, message, _ in live.read_messages(topics=['/diagnostics']):
+            for status in message.status:
+                found = {v.key: v.value for v in status.values}
+                if any(key.startswith('robust_kf') for key in found):
+                    values = found
+    return [float(values[key]) for key in KEYS]
+
+
+def alone(bag, recorded):
+    port = new_master()
+    with running('roscore', '-p', port):
+        master = rosgraph.Master('/nodelet_latency')
+        wait_until(master.is_online)
+        subprocess.run(['rosparam', 'set', '/filters', f'{{estimators: {ESTIMATORS}}}'], check=True)
+        with running('rosrun', 'nodelet', 'nodelet', 'standalone', 'sas_motion/FilterNodelet', '__name:=filters'):
+            wait_until(lambda: '/filters/reset' in names(master, 2))
+            with running('rosbag', 'record', '--buffsize=0', '-O', recorded, '/diagnostics', '/kf/odometry', '/robust_kf/odometry'):
+                wait_until(lambda: '/kf/odometry' in names(master, 1))
+                subprocess.run(['rosbag', 'play', '--quiet', '--delay=2', f'--rate={RATE}', bag, '--topics', 'gnss/fix', 'imu/data', 'dvl/twist', '/tf_static'],
+                               check=True, stdout=subprocess.DEVNULL)
+                time.sleep(2)
+    return last_diagnostics(recorded)
+
+
+def together(bag, recorded):
+    port = new_master()
+    launch = quietly('roslaunch', '--port', port, 'sas_motion', 'compare.launch', f'bag:={bag}', f'output:={recorded}', f'rate:={RATE}', f'filters:={ESTIMATORS}')
+    if launch.wait() != 0:
+        sys.exit('nodelet_latency: compare.launch failed')
+    return last_diagnostics(recorded)
 
 
 def main():
     tools, out, seconds = sys.argv[1], sys.argv[2], float(sys.argv[3])
+    runs = int(sys.argv[4]) if len(sys.argv) > 4 else 1
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    rate = 100 / SENSOR_RATE
-    bag, recorded = f'{out}/latency.bag', f'{out}/latency_live.bag'
-    subprocess.run([f'{tools}/simulate', f'{root}/{SCENARIO}', '-o', bag, '--duration', str(seconds * rate)], check=True)
-    port = free_port()
-    environment = dict(os.environ, ROS_IP='127.0.0.1', ROS_MASTER_URI=f'http://127.0.0.1:{port}', ROS_HOME=tempfile.mkdtemp())
-    subprocess.run(['roslaunch', '--port', str(port), 'sas_motion', 'compare.launch', f'bag:={bag}', f'output:={recorded}', f'rate:={rate}',
-                    'filters:=[kf, robust_kf]'], env=environment, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    values = {}
-    with rosbag.Bag(recorded) as live:
-        for _, message, _ in live.read_messages(topics=['/diagnostics']):
-            for status in message.status:
-                if any('kf' in v.key for v in status.values):
-                    values = {v.key: v.value for v in status.values}
-    for key in ('callbacks', 'callback to publication p50 [ms]', 'callback to publication p99 [ms]'):
-        print(f'{key:<40}{values[key]}')
+    bag = f'{out}/latency.bag'
+    subprocess.run([f'{tools}/simulate', f'{root}/{SCENARIO}', '-o', bag, '--duration', str(seconds * RATE)], check=True)
+    for measure in (alone, together):
+        found = [measure(bag, f'{out}/latency_{measure.__name__}.bag') for _ in range(runs)]
+        for key, values in zip(KEYS, zip(*found)):
+            print(f'{measure.__name__:<10}{key:<36} best {min(values):.3f}  typical {statistics.median(values):.3f}  worst {max(values):.3f}')
 
 
 if __name__ == '__main__':

@@ -156,6 +156,7 @@ void readConfig(YamlSection& yaml, Config& config) {
   start.finish();
   yaml.number("lag", config.lag, {0, 3600});
   yaml.number("reset_after", config.reset_after, {kTiny, 1e6});
+  yaml.number("max_gap", config.max_gap, {kTiny, 1e6});
   yaml.number("input_hold", config.input_hold, {0, 3600});
   yaml.angle("turn_rate_limit_deg", config.turn_rate_limit, {kTiny, 3600});
   if (config.start.window > config.lag) yaml.fail("start.window", fmt::format("is {} but must be at most lag, which is {}", config.start.window, config.lag));

@@ -11,14 +11,33 @@
 #include "sas_motion/smoothers/rts.hpp"
 
 namespace sas_motion::towfish {
+namespace {
+
+/// The filter of this name and type, set up by `config`.
+template <class Filter>
+Filter filterOf(const std::string& name, const Config& config) {
+  std::optional<Filter> made;
+  withFilter(name, config, [&](const auto& filter) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(filter)>, Filter>) made.emplace(filter);
+  });
+  return *made;
+}
+
+}  // namespace
+
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config) {
   std::unique_ptr<Estimator> estimator;
-  withFilter(name, config, [&](const auto& filter) { estimator = std::make_unique<FilterTimeline<std::decay_t<decltype(filter)>>>(filter, config); });
+  withFilter(name, config, [&](const auto& filter) {
+    using Filter = std::decay_t<decltype(filter)>;
+    estimator = std::make_unique<FilterTimeline<Filter>>([name](const Config& c) { return filterOf<Filter>(name, c); }, config);
+  });
   if (estimator) return estimator;
   if (name == "rts")
     return std::make_unique<SmootherRecorder>(config, [options = config.rts](const SmoothingProblem& problem) { return smoothRts(problem, options); });
   return nullptr;
 }
+
+const char* Estimator::setState(const Estimate&, Output&) { return "it keeps no present state"; }
 
 const char* invalidity(const Measurement& z, const Config& config) {
   if (z.stamp <= 0) return "no stamp";

@@ -12,7 +12,8 @@
 namespace sas_motion::towfish {
 namespace {
 
-constexpr int kClockHasJumped = 50;  // so many stale measurements in a row mean that the clock was set back: start again
+constexpr double kLateIsNoJump = 1;      // what is this late is late, whatever the lag [s]
+constexpr double kShortenedStart = 0.5;  // of the start's window, after the clock was set: an answer is waited for
 
 template <class Belief, int M>
 Audit auditOf(const Measurement& z, const Update<Belief, M>& update) {
@@ -36,26 +37,47 @@ Audit auditOf(const Measurement& z, const Update<Belief, M>& update) {
 }  // namespace
 
 template <class Filter>
+FilterTimeline<Filter>::FilterTimeline(Make make, const Config& config)
+    : make_(std::move(make)),
+      config_(config),
+      model_(config.model),
+      filter_(std::make_shared<const Filter>(make_(config))),
+      clock_(std::max(config.max_gap, config.lag), std::max(config.lag, kLateIsNoJump)),
+      start_window_(config.start.window) {}
+
+template <class Filter>
 void FilterTimeline<Filter>::process(const Measurement& z, Output& output) {
   if (const char* reason = invalidity(z, config_)) {
     output.audits.push_back(refusal(z, Verdict::Invalid, reason));
     return;
   }
+  const auto answer = clock_.judge(z, output);
+  if (answer == ClockGuard::Answer::ClockSet) startAnew(output);
+  if (answer == ClockGuard::Answer::Believed) insert(z, output);
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::startAnew(Output& output) {
+  const auto agreed = clock_.release();
+  settleAll(output);
+  forget();
+  start_window_ = config_.start.window * kShortenedStart;
+  for (const auto& z : agreed) insert(z, output);
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::insert(const Measurement& z, Output& output) {
   if (settled_ && z.stamp <= *settled_) {
     output.audits.push_back(refusal(z, Verdict::Stale, "older than the lag"));
-    if (++stale_in_a_row_ < kClockHasJumped) return;
-    finish(output);
-    reset();
+    return;
   }
-  stale_in_a_row_ = 0;
-
   const auto place = std::lower_bound(entries_.begin(), entries_.end(), z, [](const Entry& a, const Measurement& b) { return before(a.z, b); });
   if (place != entries_.end() && !before(z, place->z)) {
     output.audits.push_back(refusal(z, Verdict::Invalid, "duplicate stamp"));
     return;
   }
   const auto index = static_cast<std::size_t>(place - entries_.begin());
-  entries_.insert(place, Entry{z, {}, {}});
+  entries_.insert(place, Entry{z, filter_, {}, {}});
 
   const bool decides_start = started() && !start_settled_ && z.stamp <= start_stamp_;
   if (!started() || decides_start) {
@@ -71,7 +93,7 @@ template <class Filter>
 bool FilterTimeline<Filter>::start() {
   if (entries_.empty()) return false;
   const Stamp first = entries_.front().z.stamp;
-  const Stamp end = first + stampFromSeconds(config_.start.window);
+  const Stamp end = first + stampFromSeconds(start_window_);
   if (entries_.back().z.stamp < end) return false;
   std::vector<Measurement> window;
   for (const auto& entry : entries_)
@@ -97,7 +119,7 @@ typename FilterTimeline<Filter>::Moment FilterTimeline<Filter>::predicted(const 
   if (stamp == from.stamp) return to;
   const bool known = secondsBetween(from.input_stamp, stamp) <= config_.input_hold;
   const auto transition = model_.transition(gaussian(from.belief).mean, known ? from.input : Input{}, secondsBetween(from.stamp, stamp));
-  to.belief = filter_.predict(from.belief, transition);
+  to.belief = filter_->predict(from.belief, transition);
   return to;
 }
 
@@ -112,7 +134,7 @@ void FilterTimeline<Filter>::fuse(const Moment& from, Entry& entry) const {
     return;
   }
   model_.linearize(z, gaussian(entry.after.belief).mean, [&](const auto& linear) {
-    auto update = filter_.update(entry.after.belief, linear);
+    auto update = entry.filter->update(entry.after.belief, linear);
     entry.audit = auditOf(z, update);
     entry.after.belief = update.belief;
   });
@@ -120,7 +142,7 @@ void FilterTimeline<Filter>::fuse(const Moment& from, Entry& entry) const {
 
 template <class Filter>
 void FilterTimeline<Filter>::settle(Stamp until, Output& output) {
-  const Stamp window = stampFromSeconds(config_.start.window);
+  const Stamp window = stampFromSeconds(start_window_);
   while (!started() && !entries_.empty() && entries_.front().z.stamp + window <= until) {  // its whole window is here, and does not start
     giveUpFront(output);
     if (start()) replay(0);
@@ -146,9 +168,37 @@ void FilterTimeline<Filter>::giveUpFront(Output& output) {
 }
 
 template <class Filter>
-void FilterTimeline<Filter>::finish(Output& output) {
+void FilterTimeline<Filter>::settleAll(Output& output) {
   if (!entries_.empty()) settle(entries_.back().z.stamp, output);
   while (!entries_.empty()) giveUpFront(output);  // it never started
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::finish(Output& output) {
+  clock_.refuseHeld(output);
+  settleAll(output);
+}
+
+template <class Filter>
+const char* FilterTimeline<Filter>::setState(const Estimate& state, Output& output) {
+  if (settled_ && state.stamp < *settled_) return "the stamp is older than the lag";
+  if (!clock_.believable(state.stamp)) return "the stamp is far from those of the measurements";
+  clock_.believe(state.stamp);
+  start_settled_ = true;
+  if (started()) settle(state.stamp, output);
+  while (!entries_.empty() && entries_.front().z.stamp <= state.stamp) giveUpFront(output);
+  if (!started()) anchor_.emplace();
+  anchor_->stamp = state.stamp;  // the turn rate in force stays
+  anchor_->belief = typename Filter::Belief{state.belief};
+  settled_ = state.stamp;
+  replay(0);
+  return nullptr;
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::configure(const Config& config) {
+  config_ = config;
+  filter_ = std::make_shared<const Filter>(make_(config));
 }
 
 template <class Filter>
@@ -167,11 +217,17 @@ std::optional<Estimate> FilterTimeline<Filter>::at(Stamp stamp) const {
 
 template <class Filter>
 void FilterTimeline<Filter>::reset() {
+  forget();
+  clock_.reset();
+  start_window_ = config_.start.window;
+}
+
+template <class Filter>
+void FilterTimeline<Filter>::forget() {
   entries_.clear();
   anchor_.reset();
   settled_.reset();
   start_settled_ = false;
-  stale_in_a_row_ = 0;
 }
 
 template class FilterTimeline<BankKalmanFilter<kStates>>;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/ros/conversions.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
+#include <stdexcept>
 
 namespace sas_motion::ros_side {
 namespace {
@@ -124,6 +126,29 @@ std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovariance
   z.value << speed, 0;
   z.variance.setConstant(believedVariance(variance, options));
   return {z};
+}
+
+Gaussian<kStates> beliefOf(const sas_motion::SetStateRequest& request) {
+  StateMatrix P = StateMatrix::Zero();
+  constexpr std::size_t n = kStates;
+  if (request.covariance.size() == n * n) {
+    P = Eigen::Map<const Eigen::Matrix<double, kStates, kStates, Eigen::RowMajor>>(request.covariance.data());
+  } else if (request.covariance.size() == n) {
+    P = Eigen::Map<const StateVector>(request.covariance.data()).cwiseAbs2().asDiagonal();
+  } else {
+    throw std::invalid_argument("covariance has " + std::to_string(request.covariance.size()) + " numbers; give 36, row-major, or 6 standard deviations");
+  }
+  const Eigen::Map<const StateVector> x(request.state.data());
+  if (!x.allFinite() || x.cwiseAbs().maxCoeff() > 1e9) throw std::invalid_argument("state is not finite");
+  const double asymmetry = (P - P.transpose()).cwiseAbs().maxCoeff();
+  if (!P.allFinite() || asymmetry > 1e-9 * P.cwiseAbs().maxCoeff() || Eigen::LLT<StateMatrix>(P).info() != Eigen::Success)
+    throw std::invalid_argument("covariance is not symmetric and positive definite");
+  StateMatrix axes = StateMatrix::Zero();  // from x, y, counter-clockwise to north, east, clockwise
+  axes(kNorth, 1) = axes(kEast, 0) = axes(kCurrentNorth, 3) = axes(kCurrentEast, 2) = axes(kSpeed, 5) = 1;
+  axes(kHeading, 4) = -1;
+  Gaussian<kStates> belief{axes * x, axes * (0.5 * (P + P.transpose())) * axes.transpose()};
+  belief.mean(kHeading) = wrapAngle(kPi / 2 - x(4));
+  return belief;
 }
 
 nav_msgs::Odometry odometryOf(const Estimate& estimate, const Settings& settings) {

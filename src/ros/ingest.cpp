@@ -31,8 +31,12 @@ template <class Message>
 void Ingest::receive(const Message& message, Source source) {
   Counts& counts = counts_[source];
   ++counts.messages;
-  counts.newest = std::max(counts.newest, stampOf(message.header.stamp));
+  counts.newest = stampOf(message.header.stamp);
   countLost(source, message.header.seq);
+  if (!enabled_[source]) {
+    ++counts.disabled;
+    return;
+  }
   if (!waiting_.empty()) retry();
   if (convert(message, source)) return;
   waiting_.push_back({stampOf(message.header.stamp), source, [this, message, source] { return convert(message, source); }});

@@ -3,14 +3,18 @@
 """The launch files: all parse, and a vessel's navigation starts and answers."""
 import math
 import subprocess
+import xml.etree.ElementTree
 
 import pytest
 import rospy
 import toolbox
-from nav_msgs.msg import Odometry
+from geometry_msgs.msg import TwistWithCovarianceStamped
+from nav_msgs.msg import Odometry, Path
 from ros_session import run_to_end, wait_until
+from sas_motion.msg import FilterUpdate
 from sensor_msgs.msg import NavSatFix
 from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker
 
 ARGUMENTS = {"vessel": [], "compare": ["bag:=a.bag", "output:=b.bag"], "reprocess": ["bag:=a.bag", "output:=out"], "view": []}
 NODES = {"vessel": {"/sas_motion_manager", "/filters", "/smoother"}, "compare": {"/manager", "/filters", "/smoother", "/recorder", "/session"},
@@ -41,13 +45,18 @@ def test_reprocess_launch(session, survey, tmp_path):
 
 def test_vessel_launch(session, sensors, survey):
     # GIVEN a vessel's navigation, started headless
-    odometry, fixes, frames = [], [], set()
+    odometry, fixes, frames, stamps = [], [], set(), []
+
+    def on_tf(message):
+        frames.update((t.header.frame_id, t.child_frame_id) for t in message.transforms)
+        stamps.extend(t.header.stamp for t in message.transforms if t.child_frame_id == "base_link")
+
     with session.running_process("roslaunch", "sas_motion", "vessel.launch") as launch:
         for topic in ("/gnss/fix", "/imu/data", "/dvl/twist"):
             wait_until(lambda topic=topic: len(session.subscribers(topic)) >= 1 or launch.poll() is not None, f"{topic} is heard", 60)
         wait_until(lambda: "/fixed_lag/odometry" in {t for t, _ in session.master.getSystemState()[0]}, "the smoother", 60)
         subscribers = [rospy.Subscriber("mixture_kf/odometry", Odometry, odometry.append), rospy.Subscriber("fixed_lag/fix", NavSatFix, fixes.append),
-                       rospy.Subscriber("/tf", TFMessage, lambda m: frames.update((t.header.frame_id, t.child_frame_id) for t in m.transforms))]
+                       rospy.Subscriber("/tf", TFMessage, on_tf)]
         # WHEN a bag is played into it
         player = session.start("rosbag", "play", "--quiet", "--delay=2", "--rate=20", survey, "--topics", "gnss/fix", "imu/data", "dvl/twist", "/tf_static")
         assert run_to_end(player, 60) == 0
@@ -56,6 +65,7 @@ def test_vessel_launch(session, sensors, survey):
         for subscriber in subscribers:
             subscriber.unregister()
     assert frames == {("map", "odom"), ("odom", "base_link")}
+    assert len(stamps) > 500 and len(set(stamps)) == len(stamps)  # tf2 warns of a stamp that comes twice
     assert (odometry[-1].header.frame_id, odometry[-1].child_frame_id) == ("map", "base_link")
     assert all(math.isfinite(n) for m in odometry for n in toolbox.numbers(m))
     # and the track lies where the truth is
@@ -63,3 +73,37 @@ def test_vessel_launch(session, sensors, survey):
     found = [(m.pose.pose.position, truth[m.header.stamp.to_nsec()]) for m in odometry if m.header.stamp.to_nsec() in truth]
     steps = [math.hypot(p.x - t.x, p.y - t.y) for p, t in found[len(found) // 2:]]
     assert len(steps) > 20 and max(steps) - min(steps) < 6  # the first fix, an outlier perhaps, is the origin: a constant off
+
+
+def test_view_markers_draws_tracks_and_rejected_fixes(session):
+    rospy.init_node("tests", disable_signals=True, disable_rostime=True)
+    paths, markers = [], []
+    odometry, update = rospy.Publisher("a_filter/odometry", Odometry, queue_size=9), rospy.Publisher("a_filter/update", FilterUpdate, queue_size=9)
+    listeners = [rospy.Subscriber("a_filter/path", Path, paths.append), rospy.Subscriber("a_filter/rejected_fixes", Marker, markers.append)]
+    with session.running_process("rosrun", "sas_motion", "view_markers.py", "a_filter"):
+        wait_until(lambda: odometry.get_num_connections() and update.get_num_connections(), "view_markers listens")
+        message = Odometry()
+        message.header.stamp, message.pose.pose.position.x = rospy.Time(100), 7
+        odometry.publish(message)
+        wait_until(lambda: paths, "a track")
+        update.publish(FilterUpdate(header=message.header, sensor="position", innovation=[3, 4], weights=[0.1, 0.1], verdict=FilterUpdate.DOWN_WEIGHTED))
+        wait_until(lambda: markers, "a rejected fix")
+    for listener in listeners:
+        listener.unregister()
+    assert paths[0].poses[0].pose.position.x == 7
+    assert (markers[0].points[0].x, markers[0].points[0].y) == (11, 3)
+
+
+def test_the_plotjuggler_layout_shows_what_is_published():
+    layout = xml.etree.ElementTree.parse(toolbox.ROOT / "config" / "plotjuggler.xml").getroot()
+    kinds = {"odometry": Odometry, "current": TwistWithCovarianceStamped, "update": FilterUpdate}
+    topics = {topic.get("name") for topic in layout.iter("topic")}
+    curves = [curve.get("name") for curve in layout.iter("curve")]
+    assert len(curves) > 10
+    for curve in curves:
+        estimator, leaf, *members = curve.strip("/").split("/")
+        assert f"/{estimator}/{leaf}" in topics and estimator in ("kf", "mixture_kf", "fixed_lag"), curve
+        value = kinds[leaf]()
+        for member in members:
+            value = getattr(value, member)
+        assert isinstance(value, (int, float)), curve

@@ -18,15 +18,20 @@ def config(tmp_path_factory):
     return toolbox.write_yaml(tmp_path_factory.mktemp("config") / "patient.yaml", PATIENT)
 
 
+def compared(session, survey, recording, *arguments):
+    """What compare.launch prints while it makes a recording."""
+    process = session.start("roslaunch", "sas_motion", "compare.launch", f"bag:={survey}", f"output:={recording}", *arguments)
+    run_to_end(process, 120)
+    printed = process.log.read_text()
+    assert recording.is_file(), printed[-3000:]
+    return printed
+
+
 @pytest.fixture(scope="module")
 def launch(session, survey, config, tmp_path_factory):
     """The recording of a launch, and what the launch printed."""
     recording = tmp_path_factory.mktemp("live") / "live.bag"
-    process = session.start("roslaunch", "sas_motion", "compare.launch", f"bag:={survey}", f"output:={recording}", f"rate:={RATE}", f"config:={config}")
-    run_to_end(process, 120)
-    printed = process.log.read_text()
-    assert recording.is_file(), printed[-3000:]
-    return recording, printed
+    return recording, compared(session, survey, recording, f"rate:={RATE}", f"config:={config}")
 
 
 @pytest.fixture(scope="module")
@@ -104,3 +109,14 @@ def test_the_present_answer_reaches_the_end_of_the_data(recording, offline):
 def test_the_recording_can_be_scored(recording, tmp_path):
     table = toolbox.succeed("evaluate.py", recording, "-o", tmp_path)
     assert all(name in table for name in [*LIVE, "batch"])
+
+
+def test_as_shipped_at_20_times_real_time(session, survey, tmp_path):
+    recording = tmp_path / "live.bag"
+    compared(session, survey, recording)  # settings and rate as they come
+    offline = toolbox.reprocess(survey, tmp_path, LIVE, "--config", toolbox.ROOT / "config" / "towfish.yaml")
+    for name in LIVE:
+        expected, settled = toolbox.estimates(offline, f"{name}/odometry"), toolbox.estimates(recording, f"{name}/settled")
+        assert len(settled) > 0.9 * len(expected), name  # the recorder may lose some at this speed
+        assert [stamp for stamp in settled if settled[stamp] != expected[stamp]] == [], name
+        assert not any(u.verdict == u.STALE for u in toolbox.topics(recording)[f"{name}/update"]), name

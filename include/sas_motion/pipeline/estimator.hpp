@@ -61,6 +61,12 @@ class Estimator {
   virtual std::optional<Estimate> current() const = 0;
   /// The state at any stamp inside the lag or after the newest measurement, or nothing.
   virtual std::optional<Estimate> at(Stamp stamp) const = 0;
+  /// Sets the state at a stamp: what was measured after it is fused again, what was measured before it is settled as it was. Returns a literal
+  /// that says why not, or nothing.
+  virtual const char* setState(const Estimate& state, Output& output);
+  /// Other losses, tunings and gates, for measurements that come from now on; those that came before keep theirs, also when they are replayed.
+  /// Batch smoothers keep what they started with.
+  virtual void configure(const Config&) {}
   /// Why the last finish() has no answer, in plain words; empty where all is well.
   virtual std::string failure() const { return ""; }
   /// Forgets everything.

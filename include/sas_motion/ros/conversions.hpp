@@ -5,6 +5,7 @@
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sas_motion/FilterUpdate.h>
+#include <sas_motion/SetState.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/NavSatFix.h>
 
@@ -38,6 +39,9 @@ std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovariance
 /// True where a fix says where it is: has a fix, and coordinates on Earth.
 bool hasPosition(const sensor_msgs::NavSatFix& fix);
 Geodetic geodeticOf(const sensor_msgs::NavSatFix& fix);
+
+/// The state that a request sets. Throws std::invalid_argument where it is none.
+Gaussian<towfish::kStates> beliefOf(const sas_motion::SetStateRequest& request);
 
 /// map -> base with covariance; the twist is over ground, in the base frame.
 nav_msgs::Odometry odometryOf(const Estimate& estimate, const Settings& settings);

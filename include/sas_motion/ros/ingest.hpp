@@ -26,9 +26,11 @@ class Ingest {
     std::uint64_t unknown_frame = 0;  ///< refused: no transform to the base frame came in time
     std::uint64_t unusable = 0;       ///< no fix, no orientation
     std::uint64_t lost = 0;           ///< gaps in header.seq
-    Stamp newest = 0;
+    std::uint64_t disabled = 0;       ///< left, since the sensor is disabled
+    Stamp newest = 0;                 ///< of the newest message, which need not have the highest stamp: a clock may be wrong
   };
   enum Source { kFix, kImu, kTwist, kSources };
+  static constexpr std::array<const char*, kSources> kNames{"fix", "imu", "twist"};
 
   /// `transforms` outlives the ingest.
   Ingest(const Settings& settings, const tf2::BufferCore& transforms, Sink sink);
@@ -36,6 +38,9 @@ class Ingest {
   void take(const sensor_msgs::NavSatFix& message);
   void take(const sensor_msgs::Imu& message);
   void take(const geometry_msgs::TwistWithCovarianceStamped& message);
+  /// Takes a sensor's messages, or only counts them.
+  void enable(Source source, bool enabled) { enabled_[source] = enabled; }
+  bool enabled(Source source) const { return enabled_[source]; }
   /// Gives up on messages that still wait for their frame. Call at the end of a bag.
   void finish();
 
@@ -58,6 +63,7 @@ class Ingest {
   Sink sink_;
   std::optional<LocalFrame> frame_;
   std::array<Counts, kSources> counts_{};
+  std::array<bool, kSources> enabled_{true, true, true};
   std::array<std::optional<std::uint32_t>, kSources> last_seq_{};
   struct Waiting {
     Stamp stamp;

@@ -14,7 +14,9 @@
 namespace sas_motion::towfish {
 namespace {
 
-constexpr double kMargin = 1;  // GTSAM's window is this much longer, so that a node is put out before it is marginalised [s]
+constexpr double kMargin = 1;            // GTSAM's window is this much longer, so that a node is put out before it is marginalised [s]
+constexpr double kLateIsNoJump = 1;      // what is this late is late, whatever the reorder time [s]
+constexpr double kShortenedStart = 0.5;  // of the start's window, after the clock was set: an answer is waited for
 
 gtsam::ISAM2Params isamParameters() {
   gtsam::ISAM2Params params;
@@ -31,7 +33,8 @@ struct FixedLagSmoother::Window {
   struct Node {
     Key key;
     Stamp stamp;
-    std::vector<Measurement> measurements;
+    Loss loss;  // on its measurements
+    std::vector<Measurement> measurements = {};
     bool put_out = false;  // a pause puts out the newest node too, which stays
   };
 
@@ -52,7 +55,7 @@ struct FixedLagSmoother::Window {
 
   void addNode(Stamp stamp) {
     const Key key = next_key++;
-    nodes.push_back({key, stamp, {}, false});
+    nodes.push_back({key, stamp, config.fixed_lag.loss});
     values.insert(key, belief.mean);
     timestamps[key] = secondsBetween(origin, stamp);
   }
@@ -73,7 +76,7 @@ struct FixedLagSmoother::Window {
       input_stamp = z.stamp;
       return;
     }
-    addRows(factors, nodes.back().key, model, z, config.fixed_lag.loss);
+    addRows(factors, nodes.back().key, model, z, nodes.back().loss);
     nodes.back().measurements.push_back(z);
     model.linearize(z, belief.mean, [&](const auto& linear) { belief = filter.update(belief, linear).belief; });
     if (values.exists(nodes.back().key)) values.update(nodes.back().key, belief.mean);
@@ -108,7 +111,11 @@ struct FixedLagSmoother::Window {
   Key next_key = 0;
 };
 
-FixedLagSmoother::FixedLagSmoother(const Config& config) : config_(config), window_(std::make_unique<Window>(config)) {}
+FixedLagSmoother::FixedLagSmoother(const Config& config)
+    : config_(config),
+      clock_(std::max(config.max_gap, config.fixed_lag.reorder), std::max(config.fixed_lag.reorder, kLateIsNoJump)),
+      start_window_(config.start.window),
+      window_(std::make_unique<Window>(config)) {}
 FixedLagSmoother::~FixedLagSmoother() = default;
 
 void FixedLagSmoother::process(const Measurement& z, Output& output) {
@@ -116,6 +123,21 @@ void FixedLagSmoother::process(const Measurement& z, Output& output) {
     output.audits.push_back(refusal(z, Verdict::Invalid, reason));
     return;
   }
+  const auto answer = clock_.judge(z, output);
+  if (answer == ClockGuard::Answer::ClockSet) startAnew(output);
+  if (answer == ClockGuard::Answer::Believed) insert(z, output);
+}
+
+void FixedLagSmoother::startAnew(Output& output) {
+  const auto agreed = clock_.release();
+  settleAll(output);
+  for (const auto& z : waiting_) output.audits.push_back(refusal(z, Verdict::Stale, "before the first position and heading"));
+  forget();
+  start_window_ = config_.start.window * kShortenedStart;
+  for (const auto& z : agreed) insert(z, output);
+}
+
+void FixedLagSmoother::insert(const Measurement& z, Output& output) {
   if (released_ && z.stamp <= *released_) {
     output.audits.push_back(refusal(z, Verdict::Stale, "older than the smoother's reorder time"));
     return;
@@ -126,7 +148,7 @@ void FixedLagSmoother::process(const Measurement& z, Output& output) {
     return;
   }
   waiting_.insert(place, z);
-  const double wait = config_.fixed_lag.reorder + (window_->started() ? 0 : config_.start.window);
+  const double wait = config_.fixed_lag.reorder + (window_->started() ? 0 : start_window_);
   release(waiting_.back().stamp - stampFromSeconds(wait), output);
 }
 
@@ -148,7 +170,7 @@ bool FixedLagSmoother::start(Stamp until, Output& output) {
     const Stamp first = waiting_.front().stamp;
     std::vector<Measurement> window;
     for (const auto& z : waiting_)
-      if (z.stamp <= first + stampFromSeconds(config_.start.window)) window.push_back(z);
+      if (z.stamp <= first + stampFromSeconds(start_window_)) window.push_back(z);
     if (const auto prior = startingBelief(first, window, config_.start, config_.model.current_sigma)) {
       window_->start(*prior, first);
       return true;
@@ -190,7 +212,7 @@ void FixedLagSmoother::settle(Stamp until, Output& output) {
     if (!node.put_out) {
       const Estimate estimate = window_->estimate(node);
       for (const auto& z : node.measurements) {
-        const auto weights = weightsAt(z, estimate.belief.mean, window_->model, config_.fixed_lag.loss);
+        const auto weights = weightsAt(z, estimate.belief.mean, window_->model, node.loss);
         output.audits.push_back(smoothedAudit(z, estimate.belief.mean, window_->model, weights, 1));
       }
       output.estimates.push_back(estimate);
@@ -202,11 +224,16 @@ void FixedLagSmoother::settle(Stamp until, Output& output) {
   }
 }
 
-void FixedLagSmoother::finish(Output& output) {
+void FixedLagSmoother::settleAll(Output& output) {
   if (!waiting_.empty()) release(waiting_.back().stamp, output);
   if (!window_->started()) return;
   solve(output);
   settle(window_->nodes.back().stamp, output);
+}
+
+void FixedLagSmoother::finish(Output& output) {
+  clock_.refuseHeld(output);
+  settleAll(output);
 }
 
 std::optional<Estimate> FixedLagSmoother::current() const {
@@ -216,7 +243,40 @@ std::optional<Estimate> FixedLagSmoother::current() const {
 
 std::optional<Estimate> FixedLagSmoother::at(Stamp) const { return std::nullopt; }
 
+const char* FixedLagSmoother::setState(const Estimate& state, Output& output) {
+  if (released_ && state.stamp < *released_) return "the stamp is older than the smoother's reorder time";
+  if (!clock_.believable(state.stamp)) return "the stamp is far from those of the measurements";
+  clock_.believe(state.stamp);
+  release(state.stamp, output);
+  if (window_->started()) {
+    solve(output);
+    settle(window_->nodes.back().stamp, output);
+  }
+  for (; !waiting_.empty() && waiting_.front().stamp <= state.stamp; waiting_.pop_front())
+    output.audits.push_back(refusal(waiting_.front(), Verdict::Stale, "before the state that was set"));
+  auto fresh = std::make_unique<Window>(config_);
+  fresh->input = window_->input;
+  fresh->input_stamp = window_->input_stamp;
+  fresh->start(state.belief, state.stamp);
+  fresh->nodes.back().put_out = true;  // the answer there is settled, or the caller's own
+  window_ = std::move(fresh);
+  released_ = state.stamp;
+  return nullptr;
+}
+
+void FixedLagSmoother::configure(const Config& config) {
+  config_ = config;
+  window_->config = config;
+  window_->filter = RobustKalmanFilter<kStates>(config.robust_kf);
+}
+
 void FixedLagSmoother::reset() {
+  forget();
+  clock_.reset();
+  start_window_ = config_.start.window;
+}
+
+void FixedLagSmoother::forget() {
   window_ = std::make_unique<Window>(config_);
   waiting_.clear();
   released_.reset();

@@ -121,5 +121,104 @@ TEST(FixedLag, BrokenMeasurementsAreCountedAndChangeNothing) {
   EXPECT_EQ(testing::count(output, Verdict::Stale), 1u);
 }
 
+TEST(FixedLag, RecoversFromAClockThatIsSetWithinFiveSecondsOfData) {
+  const auto scenario = testing::survey(45);
+  const auto run = testing::simulate(scenario, 8);
+  Config config = configWithLag(scenario, 5);
+  for (const double jump : {1.0, -1.0, 3600.0, -3600.0, 3.15e8, -3.15e8}) {
+    FixedLagSmoother smoother(config);
+    Output output;
+    for (const auto& z : run.measurements) {
+      const double t = secondsBetween(Simulator::kStart, z.stamp);
+      Measurement moved = z;
+      if (t > 30) moved.stamp += stampFromSeconds(jump);
+      smoother.process(moved, output);
+      if (t < 35) continue;
+      auto now = smoother.current();
+      ASSERT_TRUE(now) << jump << " s, at " << t;
+      now->stamp -= stampFromSeconds(jump);
+      ASSERT_GE(secondsBetween(now->stamp, z.stamp), 0) << jump << " s, at " << t;
+      ASSERT_LT(secondsBetween(now->stamp, z.stamp), config.fixed_lag.reorder + 1) << jump << " s, at " << t;
+      ASSERT_LT(testing::positionError(*now, run), 4) << jump << " s, at " << t;
+    }
+  }
+}
+
+TEST(FixedLag, OneWrongStampChangesNothing) {
+  const auto scenario = testing::survey(25);
+  const Config config = configWithLag(scenario, 5);
+  const auto good = testing::simulate(scenario, 9).measurements;
+  for (const double wrong : {-3600.0, 3600.0, 3.15e8}) {
+    auto mixed = good;
+    Measurement bad = good[100];
+    bad.stamp += stampFromSeconds(wrong);
+    mixed.insert(mixed.begin() + 100, bad);
+    FixedLagSmoother clean(config), dirty(config);
+    testing::expectSameEstimates(testing::feed(clean, good), testing::feed(dirty, mixed), std::to_string(wrong));
+  }
+}
+
+TEST(FixedLag, StartsAgainFromAStateThatIsSet) {
+  const auto scenario = testing::survey(40);
+  const auto run = testing::simulate(scenario, 10);
+  FixedLagSmoother smoother(configWithLag(scenario, 5));
+  Output output;
+  bool done = false;
+  for (const auto& z : run.measurements) {
+    smoother.process(z, output);
+    if (done || secondsBetween(Simulator::kStart, z.stamp) < 20) continue;
+    done = true;
+    const auto now = smoother.current();
+    ASSERT_TRUE(now);
+    Estimate set{z.stamp, now->belief};
+    set.belief.mean.head<2>().setConstant(1e4);
+    set.belief.covariance = StateMatrix::Identity() * 1e-6;
+    EXPECT_EQ(smoother.setState(set, output), nullptr);
+    set.stamp -= stampFromSeconds(10);
+    EXPECT_STREQ(smoother.setState(set, output), "the stamp is older than the smoother's reorder time");
+  }
+  smoother.finish(output);
+  testing::expectRisingStamps(output);
+  std::size_t after = 0;
+  for (const auto& estimate : output.estimates) {
+    const double t = secondsBetween(Simulator::kStart, estimate.stamp);
+    if (t < 20) {
+      ASSERT_LT(testing::positionError(estimate, run), 5) << t;
+    }
+    if (t < 20.1 || t > 22) continue;
+    ++after;
+    ASSERT_NEAR(estimate.belief.mean(kNorth), 1e4, 100) << t;
+  }
+  EXPECT_GT(after, 20u);
+}
+
+TEST(FixedLag, AnotherLossCountsFromTheNextMeasurementOn) {
+  const auto scenario = testing::survey(40);
+  auto measurements = testing::simulate(scenario, 11).measurements;
+  Config config = configWithLag(scenario, 5);
+  for (auto& z : measurements)
+    if (z.sensor == Sensor::Position && z.stamp % (7 * kNanosecondsPerSecond) < kNanosecondsPerSecond) z.value(0) += 30;
+  FixedLagSmoother one(config), other(config);
+  Output expected, output;
+  for (const auto& z : measurements) {
+    if (secondsBetween(Simulator::kStart, z.stamp) >= 20 && config.fixed_lag.loss.kind() != LossKind::L2) {
+      config.fixed_lag.loss = Loss(LossKind::L2);
+      other.configure(config);
+    }
+    one.process(z, expected);
+    other.process(z, output);
+  }
+  std::size_t before = 0, differ = 0;
+  for (std::size_t i = 0; i < std::min(expected.estimates.size(), output.estimates.size()); ++i) {
+    const bool same = expected.estimates[i].belief.mean == output.estimates[i].belief.mean;
+    const double t = secondsBetween(Simulator::kStart, expected.estimates[i].stamp);
+    ASSERT_TRUE(same || t >= 12) << t;  // settled before the change
+    before += t < 12;
+    differ += !same;
+  }
+  EXPECT_GT(before, 100u);
+  EXPECT_GT(differ, 100u);
+}
+
 }  // namespace
 }  // namespace sas_motion::towfish

@@ -5,12 +5,13 @@
 #include <deque>
 #include <memory>
 
-#include "sas_motion/pipeline/estimator.hpp"
+#include "sas_motion/pipeline/clock_guard.hpp"
 
 namespace sas_motion::towfish {
 
 /// The same graph over a sliding window, live: GTSAM's incremental fixed-lag smoother. A node is settled, and put out, when it leaves the
 /// window. Measurements wait `reorder` seconds for older ones, so that nodes are created in time order; later ones are stale.
+/// When the clock is set, or after a long gap, it starts anew.
 class FixedLagSmoother final : public Estimator {
  public:
   explicit FixedLagSmoother(const Config& config);
@@ -20,6 +21,8 @@ class FixedLagSmoother final : public Estimator {
   void finish(Output& output) override;
   std::optional<Estimate> current() const override;
   std::optional<Estimate> at(Stamp stamp) const override;
+  const char* setState(const Estimate& state, Output& output) override;
+  void configure(const Config& config) override;
   void reset() override;
 
   /// How often the solver failed and was rebuilt from its last good state.
@@ -28,6 +31,10 @@ class FixedLagSmoother final : public Estimator {
  private:
   struct Window;
 
+  void startAnew(Output& output);
+  void insert(const Measurement& z, Output& output);
+  void settleAll(Output& output);
+  void forget();
   void release(Stamp until, Output& output);
   bool start(Stamp until, Output& output);
   void solve(Output& output);
@@ -35,6 +42,8 @@ class FixedLagSmoother final : public Estimator {
   void settle(Stamp until, Output& output);
 
   Config config_;
+  ClockGuard clock_;
+  double start_window_;  // [s]
   std::unique_ptr<Window> window_;
   std::deque<Measurement> waiting_;  // sorted, not yet older than the reorder time
   std::optional<Stamp> released_;    // nodes exist up to here

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/ros/reconfigure.hpp"
+
+namespace sas_motion::ros_side {
+namespace {
+
+/// Takes a loss and its tuning; another loss without another tuning comes with its customary one. True where something changed.
+bool take(const std::string& name, double& tuning, Loss& loss) {
+  const LossKind kind = lossFromName(name);
+  if (kind != loss.kind() && tuning == loss.tuning()) tuning = Loss::defaultTuning(kind);
+  if (kind == loss.kind() && tuning == loss.tuning()) return false;
+  loss = Loss(kind, tuning);
+  return true;
+}
+
+void show(const Loss& loss, std::string& name, double& tuning) {
+  name = lossName(loss.kind());
+  tuning = loss.tuning();
+}
+
+}  // namespace
+
+Reconfigure::Reconfigure(const ros::NodeHandle& own, const towfish::Config& config, Changed changed)
+    : config_(config), changed_(std::move(changed)), server_(mutex_, own) {
+  EstimatorsConfig shown = EstimatorsConfig::__getDefault__();
+  show(config.robust_kf.loss, shown.robust_kf_loss, shown.robust_kf_tuning);
+  show(config.fixed_lag.loss, shown.fixed_lag_loss, shown.fixed_lag_tuning);
+  shown.gated_kf_probability = config.gated_kf.probability;
+  server_.updateConfig(shown);
+  server_.setCallback([this](EstimatorsConfig& wanted, std::uint32_t) { onChange(wanted); });
+}
+
+void Reconfigure::onChange(EstimatorsConfig& wanted) {
+  try {
+    bool different = take(wanted.robust_kf_loss, wanted.robust_kf_tuning, config_.robust_kf.loss);
+    different = take(wanted.fixed_lag_loss, wanted.fixed_lag_tuning, config_.fixed_lag.loss) || different;
+    different = wanted.gated_kf_probability != config_.gated_kf.probability || different;
+    config_.gated_kf.probability = wanted.gated_kf_probability;
+    if (different) changed_(config_);
+  } catch (const std::invalid_argument& error) {
+    ROS_ERROR("dynamic_reconfigure: %s", error.what());
+    show(config_.robust_kf.loss, wanted.robust_kf_loss, wanted.robust_kf_tuning);
+    show(config_.fixed_lag.loss, wanted.fixed_lag_loss, wanted.fixed_lag_tuning);
+  }
+}
+
+}  // namespace sas_motion::ros_side
