@@ -31,16 +31,19 @@ free_mib=$(df --output=avail -m "$work" | tail -n 1)
 
 echo "build_gtsam: fetching the source of GTSAM 4.2 (11 MB)"
 # A private source list: the machine's own archive and keyring, Debian 13's sources, nothing of the machine's configuration changed.
-archive=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | grep -E '/debian/?$' | head -n 1)
-[ -n "$archive" ] || fail "no Debian archive among this machine's apt sources"
+archive=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | grep -E -m 1 '/debian/?$') ||
+  fail "no Debian archive among this machine's apt sources"
 keyring=/usr/share/keyrings/debian-archive-keyring.gpg
 echo "deb-src [signed-by=$keyring] $archive trixie main" >"$work/sources.list"
 mkdir -p "$work/lists/partial"
 apt=(apt-get -o "Dir::Etc::SourceList=$work/sources.list" -o Dir::Etc::SourceParts=- -o "Dir::State::Lists=$work/lists" -o APT::Sandbox::User=root)
-"${apt[@]}" update -qq >"$work/apt.log" 2>&1 || fail "the list of Debian 13's sources could not be read; is there a network? $(tail -n 1 "$work/apt.log")"
-(cd "$work" && "${apt[@]}" source --tar-only --download-only gtsam/trixie >>"$work/apt.log" 2>&1) || fail "GTSAM's source could not be fetched: $(tail -n 1 "$work/apt.log")"
-tarball=$(ls "$work"/gtsam_4.2*orig.tar.xz)
-echo "$sha256  $tarball" | sha256sum --quiet -c || fail "GTSAM's source has a wrong checksum"
+unreachable() { fail "$1 could not be fetched from $archive; is there a network? $(tail -n 1 "$work/apt.log")"; }
+# By itself apt-get takes an archive that does not answer for a warning.
+"${apt[@]}" update -qq -o APT::Update::Error-Mode=any >"$work/apt.log" 2>&1 || unreachable "the list of Debian 13's sources"
+(cd "$work" && "${apt[@]}" source --tar-only --download-only gtsam/trixie >>"$work/apt.log" 2>&1) || unreachable "GTSAM's source"
+tarball=$(find "$work" -maxdepth 1 -name 'gtsam_4.2*orig.tar.xz')
+[ -n "$tarball" ] || fail "$archive has another version of GTSAM than 4.2"
+echo "$sha256  $tarball" | sha256sum --status -c || fail "GTSAM's source from $archive has a wrong checksum"
 mkdir "$work/src"
 tar -xf "$tarball" -C "$work/src" --strip-components 1
 

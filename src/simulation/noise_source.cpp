@@ -32,9 +32,10 @@ bool Spells::on(const NoiseLaw& law, double time, double elapsed, double dice) {
 
 double varyingSigma(const NoiseLaw& law, double time) { return 1 + (law.factor - 1) * 0.5 * (1 - std::cos(2 * kPi * time / law.period)); }
 
-NoiseSource::NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t stream) : random_(seed, stream) {
+NoiseSource::NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t stream, std::optional<std::uint64_t> spell_stream) : random_(seed, stream) {
   for (const auto& law : mix.laws) {
-    Part part{law, Random(seed, stream + 1000 * (parts_.size() + 1)), {}, 0};
+    const std::uint64_t spell = spell_stream.value_or(stream + 500'000) + parts_.size();
+    Part part{law, Random(seed, stream + 1000 * (parts_.size() + 1)), Random(seed, spell), {}, 0};
     part.gauss_markov = part.random.gaussian();
     parts_.push_back(part);
   }
@@ -66,7 +67,7 @@ void NoiseSource::Part::apply(NoiseSample& sample, double time, double elapsed, 
       return;
     }
     case NoiseLaw::Kind::Burst:
-      if (spells.on(law, time, elapsed, dice)) shift(sample, law.K);
+      if (spells.on(law, time, elapsed, spell_random.uniform())) shift(sample, law.K);
       return;
     case NoiseLaw::Kind::Step:
       if (time >= law.t0 && time < law.t1) shift(sample, law.bias);
@@ -75,10 +76,10 @@ void NoiseSource::Part::apply(NoiseSample& sample, double time, double elapsed, 
       if (time >= law.t0 && time < law.t1) shift(sample, law.slope * (time - law.t0));
       return;
     case NoiseLaw::Kind::Frozen:
-      sample.frozen |= spells.on(law, time, elapsed, dice);
+      sample.frozen |= spells.on(law, time, elapsed, spell_random.uniform());
       if (sample.frozen) shift(sample, 0);
       return;
-    case NoiseLaw::Kind::Dropout: sample.missing |= spells.on(law, time, elapsed, dice) || random.bernoulli(law.probability); return;
+    case NoiseLaw::Kind::Dropout: sample.missing |= spells.on(law, time, elapsed, spell_random.uniform()) || random.bernoulli(law.probability); return;
     case NoiseLaw::Kind::Multipath:
       if (dice < law.probability) shift(sample, law.mean * random.exponential());
       return;

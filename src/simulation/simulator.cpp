@@ -8,7 +8,7 @@
 namespace sas_motion::towfish {
 namespace {
 
-enum Stream : std::uint64_t { kProcessStream = 100, kSensorStream = 200, kCurrentStream = 300, kWaveStream = 400 };
+enum Stream : std::uint64_t { kProcessStream = 100, kSensorStream = 200, kCurrentStream = 300, kWaveStream = 400, kSpellStream = 1'000'000 };
 
 /// Three waves near one period, of total standard deviation 1, and their rate of change.
 struct Waves {
@@ -27,7 +27,8 @@ struct Waves {
 
 Simulator::Simulator(const Scenario& scenario, std::uint64_t seed)
     : scenario_(scenario), model_(scenario.motion), process_(scenario.process, kStates, seed, kProcessStream), current_noise_(seed, kCurrentStream) {
-  for (std::uint64_t i = 0; i < 2 * kSensors; ++i) sensor_.emplace_back(scenario.sensors[i / 2].noise, seed, kSensorStream + i);
+  for (std::uint64_t i = 0; i < 2 * scenario.sensors.size(); ++i)
+    sensor_.emplace_back(scenario.sensors[i / 2].noise, seed, kSensorStream + i, kSpellStream + 10 * (i / 2));
   Random waves(seed, kWaveStream);
   for (auto& phase : phases_) phase = 2 * kPi * waves.uniform();
   current_ = scenario.current;
@@ -39,13 +40,20 @@ bool Simulator::next() {
   if (time() > scenario_.duration + 1e-9) return false;
   truth_.stamp = kStart + step_ * stampFromSeconds(scenario_.step);
   if (step_ == 0)
-    truth_.state << 0, 0, current_, wrapAngle(scenario_.heading), scenario_.speed;
+    begin();
   else if (scenario_.kind == Scenario::Kind::RandomWalk)
     moveRandomWalk();
   else
     moveSurvey();
   measure();
   return true;
+}
+
+void Simulator::begin() {
+  if (scenario_.kind == Scenario::Kind::Survey)
+    takeSurveyState(0);
+  else
+    truth_.state << 0, 0, current_, wrapAngle(scenario_.heading), scenario_.speed;
 }
 
 void Simulator::moveRandomWalk() {
@@ -63,9 +71,17 @@ void Simulator::moveCurrent() {
   for (int i = 0; i < 2; ++i) current_(i) = scenario_.current(i) + decay * (current_(i) - scenario_.current(i)) + drive * current_noise_.gaussian();
 }
 
-void Simulator::moveSurvey() {
-  const double dt = scenario_.step, now = time();
-  moveCurrent();
+void Simulator::takeSurveyState(double course_rate) {
+  const double now = time();
+  const Waves yaw(now, scenario_.yaw_period, phases_), surge(now, 1.7 * scenario_.yaw_period, phases_);
+  Vector<2> current = current_;
+  if (scenario_.front.time >= 0) current += scenario_.front.change * 0.5 * (1 + std::tanh(2 * (now - scenario_.front.time) / scenario_.front.width));
+  truth_.state.tail<4>() << current, wrapAngle(course_ + scenario_.yaw_sigma * yaw.value), scenario_.speed + scenario_.surge_sigma * surge.value;
+  truth_.turn_rate = course_rate + scenario_.yaw_sigma * yaw.rate;
+}
+
+double Simulator::moveCourse() {
+  const double dt = scenario_.step;
   leg_time_ += dt;
   double course_rate = 0;
   if (turning_) {
@@ -81,19 +97,18 @@ void Simulator::moveSurvey() {
     turned_ = 0;
   }
   course_ += course_rate * dt;
-  const Waves yaw(now, scenario_.yaw_period, phases_), surge(now, 1.7 * scenario_.yaw_period, phases_);
+  return course_rate;
+}
+
+void Simulator::moveSurvey() {
+  moveCurrent();
+  const double course_rate = moveCourse();
+  const StateVector last = truth_.state;
+  takeSurveyState(course_rate);
   StateVector& x = truth_.state;
-  const double heading = course_ + scenario_.yaw_sigma * yaw.value, speed = scenario_.speed + scenario_.surge_sigma * surge.value;
-  const double middle_heading = x(kHeading) + 0.5 * wrapAngle(heading - x(kHeading)), middle_speed = 0.5 * (speed + x(kSpeed));
-  Vector<2> current = current_;
-  if (scenario_.front.time >= 0) current += scenario_.front.change * 0.5 * (1 + std::tanh(2 * (now - scenario_.front.time) / scenario_.front.width));
-  x(kNorth) += dt * (0.5 * (x(kCurrentNorth) + current(0)) + middle_speed * std::cos(middle_heading));
-  x(kEast) += dt * (0.5 * (x(kCurrentEast) + current(1)) + middle_speed * std::sin(middle_heading));
-  x(kCurrentNorth) = current(0);
-  x(kCurrentEast) = current(1);
-  x(kHeading) = wrapAngle(heading);
-  x(kSpeed) = speed;
-  truth_.turn_rate = course_rate + scenario_.yaw_sigma * yaw.rate;
+  const double heading = last(kHeading) + 0.5 * wrapAngle(x(kHeading) - last(kHeading)), speed = 0.5 * (last(kSpeed) + x(kSpeed));
+  x(kNorth) += scenario_.step * (0.5 * (last(kCurrentNorth) + x(kCurrentNorth)) + speed * std::cos(heading));
+  x(kEast) += scenario_.step * (0.5 * (last(kCurrentEast) + x(kCurrentEast)) + speed * std::sin(heading));
 }
 
 void Simulator::measure() {

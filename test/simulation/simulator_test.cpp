@@ -151,7 +151,7 @@ TEST(Simulator, ASurveyTurnsAndSailsBack) {
 
 TEST(Simulator, TruthIsConsistentWithItself) {
   const auto run = simulate(testing::survey(300), 7);
-  for (std::size_t i = 2; i < run.truth.size(); ++i) {  // the waves begin at the first step
+  for (std::size_t i = 1; i < run.truth.size(); ++i) {
     const StateVector &a = run.truth[i - 1].state, &b = run.truth[i].state;
     const double dt = secondsBetween(run.truth[i - 1].stamp, run.truth[i].stamp);
     const Vector<2> velocity(b(kCurrentNorth) + b(kSpeed) * std::cos(b(kHeading)), b(kCurrentEast) + b(kSpeed) * std::sin(b(kHeading)));

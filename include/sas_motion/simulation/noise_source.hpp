@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sas_motion/math/random.hpp"
@@ -34,14 +35,15 @@ class Spells {
 /// Draws one sensor channel's noise over time; calls must have rising times.
 class NoiseSource {
  public:
-  NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t stream);
+  /// Rows of one sensor that share a `spell_stream` have their bursts, freezes and drop-outs together.
+  NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t stream, std::optional<std::uint64_t> spell_stream = {});
   NoiseSample draw(double time);
 
  private:
   /// One law with what it remembers, and random numbers of its own.
   struct Part {
     NoiseLaw law;
-    Random random;
+    Random random, spell_random;
     Spells spells;
     double gauss_markov;
 

@@ -41,9 +41,14 @@ class Simulator {
   static constexpr Stamp kStart = 1'600'000'000 * kNanosecondsPerSecond;  ///< stamp of every scenario's beginning
 
  private:
+  void begin();
   void moveRandomWalk();
   void moveSurvey();
   void moveCurrent();
+  /// Moves along lines and turns; returns the rate of the course.
+  double moveCourse();
+  /// Everything but the position, on the waves and in the front, at this step.
+  void takeSurveyState(double course_rate);
   void measure();
   bool draw(const SimulatedSensor& sensor, LabelledMeasurement& labelled);
 
