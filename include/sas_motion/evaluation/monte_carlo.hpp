@@ -3,54 +3,47 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "sas_motion/evaluation/scores.hpp"
-#include "sas_motion/simulation/simulator.hpp"
+#include "sas_motion/evaluation/simulated_run.hpp"
 
 namespace sas_motion::towfish {
 
-/// One law of a campaign: the noise that all sensors of the scenario get, or its own where there is none.
+/// One law of a campaign: the noise that position, heading and speed get; what is not there stays as in the scenario.
 struct CampaignLaw {
   std::string name;
   std::optional<NoiseMix> noise;
+  std::map<Sensor, NoiseMix> sensors;  ///< of single sensors, before `noise`
+  std::optional<NoiseMix> process;     ///< of a random walk
 };
 
 /// Monte Carlo of one scenario: laws x seeds x estimators.
 struct Campaign {
-  std::string name;
   Scenario scenario;
   Config config;
   std::vector<CampaignLaw> laws;
   std::vector<std::string> estimators;
-  int runs = 100;
-  std::uint64_t first_seed = 1;
   double skip = 20;  ///< start of each run that is not scored [s]
 
-  /// Reads a suite; files named in it are relative to it. Throws ConfigError.
-  static Campaign fromFile(const std::string& file);
-};
-
-/// What one estimator made of one run.
-struct RunResult {
-  std::string law, estimator;
-  std::uint64_t seed = 0;
-  Scores scores;
-  double seconds = 0;  ///< CPU time
-  std::size_t measurements = 0;
+  /// Reads one campaign of a suite; `folder` is where the files named in it are. Throws ConfigError.
+  static Campaign read(YamlSection& yaml, const std::string& folder);
+  Scenario scenarioUnder(const CampaignLaw& law) const;
 };
 
 using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string& name, const Config& config)>;
 
 /// The name of the reference that is told each row's true variance: a Kalman filter.
 constexpr const char* kOracle = "oracle_kf";
+/// The name of the reference that is told the law of the noise, but not which readings are bad: a Gaussian sum.
+constexpr const char* kBayesReference = "bayes_reference";
 
-/// Simulates one run once and lets every estimator of the campaign work on it.
-std::vector<RunResult> runOnce(const Campaign& campaign, const CampaignLaw& law, std::uint64_t seed, const EstimatorFactory& make);
+/// Lets an estimator work on a run under `scenario`; `seconds` is the CPU time it took.
+Output estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
+                double& seconds);
 
-/// Runs everything on `jobs` threads; results come in the order law, seed, estimator whatever the number of threads. `done` is called
-/// after each run, from any thread.
-std::vector<RunResult> runCampaign(const Campaign& campaign, int jobs, const EstimatorFactory& make, const std::function<void()>& done);
+/// The scores of what an estimator said of a run, without its start.
+Scores score(const Campaign& campaign, const SimulatedRun& run, const Output& output);
 
 }  // namespace sas_motion::towfish

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sas_motion/campaign/system.hpp"
+#include "sas_motion/evaluation/monte_carlo.hpp"
+
+namespace sas_motion {
+
+/// Campaigns over seeds: all that a benchmark runs.
+struct Suite {
+  std::string name;
+  std::string hash;  ///< of everything that a run depends on, but for the number of runs
+  int runs = 100;    ///< seeds a law
+  std::uint64_t first_seed = 1;
+  std::vector<std::unique_ptr<System>> campaigns;
+
+  /// Files named in a suite are relative to it. Throws ConfigError.
+  static Suite fromFile(const std::string& file, const towfish::EstimatorFactory& make);
+
+  /// A run: tasks are numbered by campaign, law, then seed.
+  struct Task {
+    const System* campaign;
+    std::size_t law;
+    std::uint64_t seed;
+  };
+  std::size_t tasks() const;
+  std::size_t firstTask(std::size_t campaign) const;
+  Task task(std::size_t index) const;
+};
+
+}  // namespace sas_motion

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/campaign/suite.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "systems.hpp"
+
+namespace sas_motion {
+namespace {
+
+std::string contents(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// FNV-1a [Fowler1991].
+std::string hashOf(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return fmt::format("{:016x}", hash);
+}
+
+/// The suite without the number of runs, and the files that it names.
+std::string whatRunsDependOn(const std::string& file) {
+  YAML::Node root = YAML::LoadFile(file);
+  root.remove("runs");
+  std::string all = YAML::Dump(root);
+  for (const auto& campaign : root["campaigns"])
+    for (const char* key : {"scenario", "config"})
+      if (campaign[key]) all += contents(std::filesystem::path(file).parent_path() / campaign[key].as<std::string>());
+  return all;
+}
+
+}  // namespace
+
+Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make) {
+  auto yaml = YamlSection::fromFile(file);
+  const std::string folder = std::filesystem::path(file).parent_path();
+  Suite suite;
+  suite.name = std::filesystem::path(file).stem();
+  yaml.text("name", suite.name);
+  yaml.integer("runs", suite.runs, 1, 1'000'000);
+  int seed = 1;
+  yaml.integer("first_seed", seed, 0, 2'000'000'000);
+  suite.first_seed = static_cast<std::uint64_t>(seed);
+  std::set<std::string> names;
+  for (auto& item : yaml.list("campaigns")) {
+    std::string name, kind = "towfish";
+    item.text("name", name);
+    item.text("system", kind);
+    if (name.empty()) item.fail("name", "is missing; give each campaign one");
+    if (!names.insert(name).second) item.fail("name", fmt::format("is '{}' but another campaign has it", name));
+    if (kind == "towfish")
+      suite.campaigns.push_back(makeTowfishSystem(item, folder, make));
+    else if (kind == "constant_velocity")
+      suite.campaigns.push_back(makeConstantVelocitySystem(item));
+    else
+      item.fail("system", fmt::format("is '{}' but must be towfish or constant_velocity", kind));
+    suite.campaigns.back()->title = name;
+    suite.campaigns.back()->kind = kind;
+    item.finish();
+  }
+  if (suite.campaigns.empty()) yaml.fail("campaigns", "is missing; list at least one");
+  yaml.finish();
+  suite.hash = hashOf(whatRunsDependOn(file));
+  return suite;
+}
+
+std::size_t Suite::firstTask(std::size_t campaign) const {
+  std::size_t laws = 0;
+  for (std::size_t i = 0; i < campaign; ++i) laws += campaigns[i]->laws.size();
+  return laws * static_cast<std::size_t>(runs);
+}
+
+std::size_t Suite::tasks() const { return firstTask(campaigns.size()); }
+
+Suite::Task Suite::task(std::size_t index) const {
+  std::size_t campaign = 0;
+  while (index >= firstTask(campaign + 1)) ++campaign;
+  const std::size_t within = index - firstTask(campaign), per_law = static_cast<std::size_t>(runs);
+  return {campaigns[campaign].get(), within / per_law, first_seed + within % per_law};
+}
+
+}  // namespace sas_motion

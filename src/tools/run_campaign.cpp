@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// run_campaign SUITE.yaml: the worker of benchmark. Simulates, estimates and scores; prints JSON. See docs/benchmark.md.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <thread>
+
+#include "main_guard.hpp"
+#include "sas_motion/campaign/ordered_tasks.hpp"
+#include "sas_motion/campaign/suite.hpp"
+#include "sas_motion/smoothers/factor_graph/estimators.hpp"
+
+namespace {
+
+using namespace sas_motion;
+using nlohmann::json;
+
+struct Options {
+  std::string suite, tasks;
+  int runs = 0;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool plan = false, bounds = false, trace = false;
+};
+
+template <class Value>
+json orNull(const std::optional<Value>& value) {
+  return value ? json(*value) : json();
+}
+
+json planOf(const Suite& suite) {
+  json plan{{"schema", "sas_motion/plan/1"}, {"suite", suite.name},   {"version", SAS_MOTION_VERSION}, {"config_hash", suite.hash},
+            {"runs", suite.runs},            {"first_seed", suite.first_seed}, {"tasks", suite.tasks()}};
+  for (std::size_t i = 0; i < suite.campaigns.size(); ++i) {
+    const System& s = *suite.campaigns[i];
+    json laws;
+    for (const auto& law : s.laws)
+      laws.push_back({{"name", law.name}, {"description", law.description}, {"epsilon", orNull(law.epsilon)}, {"K", orNull(law.K)}});
+    plan["campaigns"].push_back({{"name", s.title}, {"system", s.kind}, {"first_task", suite.firstTask(i)}, {"duration", s.duration}, {"skip", s.skip},
+                                 {"dimension", s.dimension}, {"estimators", s.estimators}, {"laws", laws}});
+  }
+  return plan;
+}
+
+json toJson(const EstimatorReport& report) {
+  json result{{"diverged", report.diverged}, {"locked_out", report.locked_out}, {"samples", report.samples}};
+  for (const auto& [group, error] : report.errors) result[group] = {{"rmse", error.rmse}, {"p95", error.p95}, {"max", error.max}};
+  for (const auto& [group, value] : report.nees) result["nees"][group] = value;
+  for (const auto& [sensor, value] : report.nis) result["nis"][sensor] = value;
+  result["aperture_across"] = orNull(report.aperture_across);
+  result["precision"] = orNull(report.precision);
+  result["recall"] = orNull(report.recall);
+  return result;
+}
+
+std::string lineOf(const Suite& suite, std::size_t index) {
+  const auto [campaign, law, seed] = suite.task(index);
+  json line{{"task", index}, {"campaign", campaign->title}, {"law", campaign->laws[law].name}, {"seed", seed}};
+  for (const auto& report : campaign->run(law, seed)) {
+    line["results"][report.estimator] = toJson(report);
+    line["cost"][report.estimator] = report.microseconds;
+  }
+  return line.dump();
+}
+
+void printTasks(const Suite& suite, const Options& options) {
+  std::size_t first = 0, last = 0;
+  if (std::sscanf(options.tasks.c_str(), "%zu:%zu", &first, &last) != 2 || first > last || last > suite.tasks())
+    throw std::runtime_error(fmt::format("--tasks: '{}' must be FIRST:LAST with at most {} tasks", options.tasks, suite.tasks()));
+  inOrder(first, last, options.jobs, [&](std::size_t task) { return lineOf(suite, task); },
+          [](const std::string& line) {
+            fmt::print("{}\n", line);
+            std::fflush(stdout);
+          });
+}
+
+json boundsOf(const Suite& suite) {
+  constexpr std::size_t kTruths = 20;
+  std::vector<std::uint64_t> seeds(std::min<std::size_t>(kTruths, static_cast<std::size_t>(suite.runs)));
+  std::iota(seeds.begin(), seeds.end(), suite.first_seed);
+  json all = json::object();
+  for (const auto& campaign : suite.campaigns)
+    for (std::size_t law = 0; law < campaign->laws.size(); ++law) {
+      json groups;
+      for (const auto& [group, rmse] : campaign->bound(law, seeds)) groups[group] = {{"rmse", rmse}};
+      all[campaign->title][campaign->laws[law].name] = groups;
+    }
+  return all;
+}
+
+/// Every n-th value, so that at most 600 are left.
+template <class Value>
+std::vector<Value> thinned(const std::vector<Value>& values) {
+  const std::size_t step = values.size() / 600 + 1;
+  std::vector<Value> some;
+  for (std::size_t i = 0; i < values.size(); i += step) some.push_back(values[i]);
+  return some;
+}
+
+json tracesOf(const Suite& suite) {
+  json all = json::object();
+  for (const auto& campaign : suite.campaigns)
+    for (std::size_t law = 0; law < campaign->laws.size(); ++law)
+      for (const auto& [name, t] : campaign->trace(law, suite.first_seed))
+        all[campaign->title][campaign->laws[law].name][name] = {{"time", thinned(t.time)},       {"error", thinned(t.error)},
+                                                               {"sigma3", thinned(t.sigma3)},   {"nees", thinned(t.nees)},
+                                                               {"nis", thinned(t.nis)},         {"weight_time", thinned(t.weight_time)},
+                                                               {"weight", thinned(t.weight)},   {"outlier", thinned(t.outlier)},
+                                                               {"nees_degrees", t.nees_degrees}, {"nis_degrees", t.nis_degrees}};
+  return all;
+}
+
+void run(const Options& options) {
+  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator);
+  if (options.runs > 0) suite.runs = options.runs;
+  if (options.plan) fmt::print("{}\n", planOf(suite).dump());
+  if (!options.tasks.empty()) printTasks(suite, options);
+  if (options.bounds) fmt::print("{}\n", boundsOf(suite).dump());
+  if (options.trace) fmt::print("{}\n", tracesOf(suite).dump());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("The worker of benchmark: simulates, estimates and scores the runs of a suite; prints JSON.", "run_campaign");
+  app.add_option("SUITE", options.suite, "suite (YAML)")->required();
+  app.add_option("--runs", options.runs, "seeds a law, instead of the suite's")->check(CLI::Range(1, 1000000));
+  app.add_option("-j,--jobs", options.jobs, "threads (default: all cores); the results do not depend on it")->check(CLI::Range(1, 1024));
+  auto* what = app.add_option_group("what to print");
+  what->add_flag("--plan", options.plan, "what the suite holds");
+  what->add_option("--tasks", options.tasks, "FIRST:LAST: the results of these runs, a line each, in order");
+  what->add_flag("--bounds", options.bounds, "posterior Cramer-Rao bounds");
+  what->add_flag("--trace", options.trace, "the first seed of every law over time");
+  what->require_option(1);
+  return runTool(app, argc, argv, [&] { run(options); });
+}

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "sas_motion/campaign/ordered_tasks.hpp"
+#include "sas_motion/campaign/suite.hpp"
+#include "support.hpp"
+
+namespace sas_motion::testing {
+
+/// A suite from text, read as a file of its own.
+inline Suite suiteOf(const std::string& text) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / ("suite_" + std::to_string(std::hash<std::string>()(text)) + ".yaml");
+  std::ofstream(path) << text;
+  return Suite::fromFile(path, towfish::makeEstimator);
+}
+
+/// A suite of one campaign on the paper's scenario, of `duration` seconds.
+inline std::string zhuSuite(double duration, int runs, const std::string& estimators, const std::string& laws) {
+  const auto scenario = std::filesystem::path(::testing::TempDir()) / ("zhu_" + std::to_string(duration) + ".yaml");
+  std::ifstream original(std::string(SAS_MOTION_SOURCE_DIR) + "/config/scenarios/zhu2007.yaml");
+  std::string text((std::istreambuf_iterator<char>(original)), {});
+  text.replace(text.find("duration: 600"), 13, "duration: " + std::to_string(duration));
+  std::ofstream(scenario) << text;
+  return "{runs: " + std::to_string(runs) + ", campaigns: [{name: towfish, scenario: " + scenario.string() + ", skip: 20, estimators: " + estimators +
+         ", laws: " + laws + "}]}";
+}
+
+/// Every run of a suite, on two threads.
+inline std::vector<std::vector<EstimatorReport>> runAll(const Suite& suite) {
+  std::cout << "seeds " << suite.first_seed << " to " << suite.first_seed + static_cast<std::uint64_t>(suite.runs) - 1 << "\n";
+  std::vector<std::vector<EstimatorReport>> all;
+  inOrder(0, suite.tasks(), 2,
+          [&](std::size_t index) {
+            const auto task = suite.task(index);
+            return task.campaign->run(task.law, task.seed);
+          },
+          [&](const std::vector<EstimatorReport>& reports) { all.push_back(reports); });
+  return all;
+}
+
+/// RMS position error of an estimator over all runs of a law, of a suite of one campaign.
+inline double rmse(const Suite& suite, const std::vector<std::vector<EstimatorReport>>& runs, const std::string& law, const std::string& estimator) {
+  std::vector<double> errors;
+  for (std::size_t task = 0; task < runs.size(); ++task) {
+    if (suite.campaigns[0]->laws[suite.task(task).law].name != law) continue;
+    for (const auto& report : runs[task])
+      if (report.estimator == estimator) errors.push_back(report.errors.front().second.rmse);
+  }
+  EXPECT_FALSE(errors.empty()) << law << ", " << estimator;
+  return rootMeanSquare(errors);
+}
+
+}  // namespace sas_motion::testing
