@@ -6,20 +6,16 @@
 
 #include <algorithm>
 #include <atomic>
-#include <ctime>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <mutex>
 #include <thread>
 
+#include "sas_motion/io/cpu_time.hpp"
+
 namespace sas_motion::towfish {
 namespace {
-
-double cpuSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// One simulated run in memory: truth at every step, and the labelled measurements.
 struct SimulatedRun {
@@ -62,8 +58,13 @@ RunResult runEstimator(const Campaign& campaign, const SimulatedRun& run, double
   for (const auto& labelled : run.measurements) estimator->process(oracle ? toldTheTruth(labelled, K) : labelled.z, output);
   estimator->finish(output);
   result.seconds = cpuSeconds() - begin;
-  for (const auto& estimate : output.estimates)
-    if (estimate.stamp >= from) scorer.add(estimate, run.at(estimate.stamp));
+  result.nees.assign(static_cast<std::size_t>(campaign.scenario.duration - campaign.skip), NAN);
+  for (const auto& estimate : output.estimates) {
+    if (estimate.stamp < from) continue;
+    scorer.add(estimate, run.at(estimate.stamp));
+    const auto second = static_cast<std::size_t>((estimate.stamp - from) / kNanosecondsPerSecond);
+    if (second < result.nees.size() && std::isnan(result.nees[second])) result.nees[second] = normalisedSquare(estimate, run.at(estimate.stamp));
+  }
   for (const auto& audit : output.audits)
     if (audit.stamp >= from) scorer.add(audit, run.outlier(audit));
   result.scores = scorer.scores();
@@ -101,6 +102,8 @@ Campaign Campaign::fromFile(const std::string& file) {
   yaml.integer("first_seed", seed, 0, 2'000'000'000);
   campaign.first_seed = static_cast<std::uint64_t>(seed);
   yaml.number("skip", campaign.skip, {0, 1e6});
+  if (campaign.skip >= campaign.scenario.duration)
+    yaml.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", campaign.skip, campaign.scenario.duration));
   for (auto& item : yaml.list("laws")) {
     CampaignLaw law;
     item.text("name", law.name);
@@ -149,6 +152,7 @@ std::vector<RunResult> runCampaign(const Campaign& campaign, int jobs, const Est
     }
   };
   std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(jobs));
   for (int i = 0; i < jobs; ++i) threads.emplace_back(work);
   for (auto& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);

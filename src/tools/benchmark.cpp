@@ -11,6 +11,7 @@
 
 #include "main_guard.hpp"
 #include "progress.hpp"
+#include "sas_motion/evaluation/ensemble.hpp"
 #include "sas_motion/evaluation/monte_carlo.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
@@ -42,7 +43,8 @@ json toJson(const RunResult& result) {
 
 /// One estimator under one law, over all seeds.
 struct Row {
-  std::vector<double> position_squares, position, nees, aperture;
+  std::vector<double> position, nees, aperture;
+  std::vector<std::vector<double>> nees_over_time;
   double seconds = 0;
   std::size_t measurements = 0, diverged = 0;
 
@@ -57,6 +59,7 @@ struct Row {
     position.push_back(rmse);
     aperture.push_back(result.scores.aperture.across);
     if (result.scores.nees_full) nees.push_back(result.scores.nees_full->mean);
+    nees_over_time.push_back(result.nees);
   }
   double rmse() const { return position.empty() ? NAN : rootMeanSquare(position); }  // nothing to say where all runs diverged
   double median() const { return position.empty() ? NAN : quantile(position, 0.5); }
@@ -76,19 +79,22 @@ Table tabulate(const Campaign& campaign, const std::vector<RunResult>& results) 
 
 double ratio(double a, double b) { return b > 0 ? a / b : NAN; }
 
+/// NEES/6 is the mean over runs and time, +- its standard error; inside: how often the average over the runs lies in its 95 % chi-squared band.
 void print(const Campaign& campaign, Table& table) {
   fmt::print("{}: {} runs of {:g} s, first {:g} s not scored, seeds {} to {}\n", campaign.name, campaign.runs, campaign.scenario.duration, campaign.skip,
              campaign.first_seed, campaign.first_seed + static_cast<std::uint64_t>(campaign.runs) - 1);
   const auto& clean = campaign.laws.front().name;
   const bool has_kf = table.count({clean, "kf"}), has_oracle = table.count({clean, kOracle});
   for (const auto& law : campaign.laws) {
-    fmt::print("\n{}\n{:<14}{:>12}{:>12}{:>8}{:>8}{:>10}{:>14}{:>10}{:>10}{:>10}\n", law.name, "estimator", "RMSE [m]", "median [m]", "R", "/kf", "/oracle",
-               "aperture [mm]", "NEES/6", "diverged", "us/update");
+    fmt::print("\n{}\n{:<14}{:>12}{:>12}{:>8}{:>8}{:>10}{:>14}{:>10}{:>8}{:>8}{:>10}{:>10}\n", law.name, "estimator", "RMSE [m]", "median [m]", "R", "/kf",
+               "/oracle", "aperture [mm]", "NEES/6", "+-", "inside", "diverged", "us/update");
     for (const auto& name : campaign.estimators) {
       const Row& row = table[{law.name, name}];
-      fmt::print("{:<14}{:>12.4f}{:>12.4f}{:>8.3f}{:>8.3f}{:>10.3f}{:>14.2f}{:>10.2f}{:>10}{:>10.2f}\n", name, row.rmse(), row.median(),
+      const auto ensemble = ensembleConsistency(row.nees_over_time, kStates);
+      fmt::print("{:<14}{:>12.4f}{:>12.4f}{:>8.3f}{:>8.3f}{:>10.3f}{:>14.2f}{:>10.2f}{:>8.3f}{:>8.2f}{:>10}{:>10.2f}\n", name, row.rmse(), row.median(),
                  ratio(row.rmse(), table[{clean, name}].rmse()), has_kf ? ratio(row.rmse(), table[{law.name, "kf"}].rmse()) : NAN,
-                 has_oracle ? ratio(row.rmse(), table[{law.name, kOracle}].rmse()) : NAN, 1e3 * mean(row.aperture), mean(row.nees) / kStates, row.diverged,
+                 has_oracle ? ratio(row.rmse(), table[{law.name, kOracle}].rmse()) : NAN, 1e3 * mean(row.aperture), mean(row.nees) / kStates,
+                 standardError(row.nees) / kStates, ensemble.inside, row.diverged,
                  1e6 * row.seconds / static_cast<double>(std::max<std::size_t>(1, row.measurements)));
     }
   }
@@ -99,9 +105,13 @@ json summary(const Campaign& campaign, Table& table) {
   for (const auto& law : campaign.laws)
     for (const auto& name : campaign.estimators) {
       const Row& row = table[{law.name, name}];
+      const auto ensemble = ensembleConsistency(row.nees_over_time, kStates);
       all["laws"][law.name][name] = {{"position_rmse", row.rmse()},
                                      {"position_rmse_median", row.median()},
                                      {"nees_per_state", mean(row.nees) / kStates},
+                                     {"nees_per_state_standard_error", standardError(row.nees) / kStates},
+                                     {"nees_per_state_band", {ensemble.band.lower / kStates, ensemble.band.upper / kStates}},
+                                     {"nees_inside_band", ensemble.inside},
                                      {"aperture_across", mean(row.aperture)},
                                      {"diverged", row.diverged}};
     }

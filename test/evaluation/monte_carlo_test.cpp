@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/evaluation/monte_carlo.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
+#include "sas_motion/evaluation/ensemble.hpp"
 #include "support.hpp"
 
 namespace sas_motion::towfish {
@@ -48,6 +51,23 @@ TEST(MonteCarlo, TheOracleIsTheKalmanFilterOnCleanDataAndBetterOnBad) {
     else
       EXPECT_LT(oracle, 0.6 * kf);
   }
+}
+
+TEST(MonteCarlo, TheNeesOfTheKalmanFilterLiesInItsBandAndOfABadOneDoesNot) {
+  auto campaign = shortCampaign();
+  campaign.scenario.duration = 120;
+  campaign.runs = 40;
+  std::map<std::string, std::vector<std::vector<double>>> nees;
+  for (const auto& result : runCampaign(campaign, 2, makeEstimator, [] {})) {
+    ASSERT_EQ(result.nees.size(), 110u);
+    nees[result.law + " " + result.estimator].push_back(result.nees);
+  }
+  for (const char* right : {"clean kf", "clean oracle_kf", "bad oracle_kf"}) {
+    const auto ensemble = ensembleConsistency(nees[right], kStates);
+    EXPECT_EQ(ensemble.times, 110u) << right;
+    EXPECT_GT(ensemble.inside, 0.85) << right;  // some 25 independent times: 0.04 is one sigma
+  }
+  EXPECT_EQ(ensembleConsistency(nees["bad kf"], kStates).inside, 0);
 }
 
 TEST(MonteCarlo, AFailureInAThreadReachesTheCaller) {

@@ -37,7 +37,8 @@ struct RunResult {
   std::string law, estimator;
   std::uint64_t seed = 0;
   Scores scores;
-  double seconds = 0;  ///< CPU time
+  std::vector<double> nees;  ///< of all six states at the first estimate in each scored second; NaN where there is none
+  double seconds = 0;        ///< CPU time
   std::size_t measurements = 0;
 };
 
