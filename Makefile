@@ -40,9 +40,9 @@ bench: build  ## measure accuracy, speed and memory; SMOKE=1 for the smallest si
 	@scripts/setup.sh libopencv-video-dev libopencv-core-dev
 	@$(ENVIRONMENT); scripts/bench.sh $(BUILD)
 
-check:  ## formatting, lint and sanitizers
+check: build  ## formatting, lint and sanitizers
 	@scripts/setup.sh clang-format clang-tidy
-	@scripts/check.sh
+	@BUILD=$(BUILD) scripts/check.sh
 
 install: build  ## install into PREFIX (default: /opt/sas_motion), which runs without the source tree
 	@cmake --install $(BUILD) > /dev/null && echo "install: source $(PREFIX)/setup.bash"

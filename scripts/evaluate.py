@@ -46,8 +46,7 @@ def run_metrics(bag, folder, tool):
     """Runs the metrics tool, which explains its own failures on stderr."""
     if not os.path.isfile(bag):
         raise ReportError(f'there is no bag {bag}; give the path of a bag that holds estimates and truth')
-    command = [tool or find_tool('sas_motion_metrics'), bag, '-o', folder]
-    make_folder(folder)
+    command = [tool or find_tool('sas_motion_metrics'), bag, '-o', folder]  # it makes the folder once it has read the bag
     try:
         status = subprocess.run(command, check=False).returncode
     except OSError as error:

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <ctime>
 #include <filesystem>
 #include <optional>
 
@@ -13,17 +12,12 @@
 #include "sas_motion/bag/bag_reader.hpp"
 #include "sas_motion/bag/topics.hpp"
 #include "sas_motion/bag/tum.hpp"
+#include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/ros/estimate_messages.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
-
-double cpuSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 constexpr std::size_t kBatch = 256;  // measurements handed to an estimator at once
 

@@ -24,9 +24,14 @@ void readLoss(YamlSection& yaml, Loss& loss) {
   loss = Loss(kind, tuning);
 }
 
-void readSensor(YamlSection yaml, Sensor sensor, SensorOptions& options) {
-  const bool angular = sensor == Sensor::Heading || sensor == Sensor::TurnRate;
-  if (angular) {
+/// How much a measurement weighs. A turn rate is an input of the motion and has no weight.
+void readWeight(YamlSection& yaml, Sensor sensor, SensorOptions& options) {
+  if (sensor == Sensor::TurnRate) {
+    for (const char* key : {"sigma_deg", "floor_deg", "override_message"})
+      if (yaml.has(key)) yaml.fail(key, "would have no effect; set model.heading_noise_deg, which holds the error of the turn rate");
+    return;
+  }
+  if (sensor == Sensor::Heading) {
     yaml.angle("sigma_deg", options.sigma, {kTiny, 180});
     yaml.angle("floor_deg", options.floor, {0, 180});
   } else {
@@ -34,6 +39,10 @@ void readSensor(YamlSection yaml, Sensor sensor, SensorOptions& options) {
     yaml.number("floor", options.floor, {0, 1e4});
   }
   yaml.boolean("override_message", options.override_message);
+}
+
+void readSensor(YamlSection yaml, Sensor sensor, SensorOptions& options) {
+  readWeight(yaml, sensor, options);
   yaml.number("time_offset", options.time_offset, {-3600, 3600});
   yaml.boolean("enabled", options.enabled);
   yaml.finish();

@@ -23,7 +23,7 @@ YAML::Node parsed(const std::string& name, const std::function<YAML::Node()>& lo
 
 }  // namespace
 
-YamlSection::YamlSection(YAML::Node node, std::string file, std::string path) : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {
+YamlSection::YamlSection(const YAML::Node& node, std::string file, std::string path) : node_(node), file_(std::move(file)), path_(std::move(path)) {
   if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap())
     throw ConfigError(fmt::format("{}: {} must be a mapping of keys to values", file_, path_.empty() ? "the file" : path_));
 }

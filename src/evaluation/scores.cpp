@@ -66,6 +66,11 @@ std::optional<double> Detection::recall() const {
   return labelled == 0 ? std::nullopt : std::optional<double>(static_cast<double>(hits) / static_cast<double>(labelled));
 }
 
+double normalisedSquare(const Estimate& estimate, const Reference& truth) {
+  const StateVector error = Model::difference(estimate.belief.mean, truth.state);
+  return error.dot(estimate.belief.covariance.llt().solve(error));
+}
+
 void Scorer::add(const Estimate& estimate, const Reference& truth) {
   const StateVector error = Model::difference(estimate.belief.mean, truth.state);
   const StateMatrix& P = estimate.belief.covariance;
@@ -83,7 +88,7 @@ void Scorer::add(const Estimate& estimate, const Reference& truth) {
     errors_[group].push_back(b < 0 ? std::abs(error(a)) : std::hypot(error(a), error(b)));
     nees_[group].push_back(normalisedSquare(group, error, P));
   }
-  if (truth.heading_known && truth.speed_known && truth.current_known) nees_full_.push_back(error.dot(P.llt().solve(error)));
+  if (truth.heading_known && truth.speed_known && truth.current_known) nees_full_.push_back(normalisedSquare(estimate, truth));
   const double heading = truth.heading_known ? truth.state(kHeading) : estimate.belief.mean(kHeading);
   const double c = std::cos(heading), s = std::sin(heading);
   time_.push_back(static_cast<double>(estimate.stamp - 0) * 1e-9);

@@ -25,6 +25,14 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+double standardError(const std::vector<double>& values) {
+  if (values.size() < 2) return 0;
+  const auto n = static_cast<double>(values.size());
+  const double centre = mean(values);
+  const auto addSquare = [&](double sum, double value) { return sum + (value - centre) * (value - centre); };
+  return std::sqrt(std::accumulate(values.begin(), values.end(), 0.0, addSquare) / (n - 1) / n);
+}
+
 double quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0;
   const double position = fraction * static_cast<double>(values.size() - 1);

@@ -48,6 +48,7 @@ std::optional<Gaussian<kStates>> startingBelief(Stamp stamp, const std::vector<M
 
   const Vector<2> velocity(speed * std::cos(heading), speed * std::sin(heading));
   std::vector<Vector<2>> moved;
+  moved.reserve(positions.size());
   for (const auto& z : positions) moved.push_back(z.value - velocity * secondsBetween(stamp, z.stamp));
   const Vector<2> position = moved[consensus(moved.size(), [&](std::size_t i, std::size_t j) {
     return (moved[i] - moved[j]).squaredNorm() / (positions[i].variance.maxCoeff() + positions[j].variance.maxCoeff());

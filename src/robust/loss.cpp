@@ -48,7 +48,7 @@ double Loss::weight(double residual) const {
 double Loss::defaultTuning(LossKind kind) {
   switch (kind) {
     case LossKind::L2: return 1;
-    case LossKind::Huber: return 1.345;
+    case LossKind::Huber:
     case LossKind::PseudoHuber: return 1.345;
     case LossKind::Cauchy: return 2.3849;
     case LossKind::Tukey: return 4.6851;

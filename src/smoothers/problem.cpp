@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sas_motion/math/factorization.hpp"
+#include "sas_motion/models/held_input.hpp"
 #include "sas_motion/models/towfish_start.hpp"
 
 namespace sas_motion::towfish {
@@ -44,13 +45,12 @@ std::optional<SmoothingProblem> buildProblem(const std::vector<Measurement>& mea
   SmoothingProblem problem{Model(config.model), start->prior, {}, {}, {}, {}, {}, {}};
   const RobustKalmanFilter<kStates> filter(config.robust_kf);
   Gaussian<kStates> belief = start->prior;
-  Input input;
-  Stamp input_stamp = 0;
+  HeldInput input;
   for (std::size_t i = start->first; i < measurements.size(); ++i) {
     const Measurement& z = measurements[i];
     if (problem.stamps.empty() || z.stamp != problem.stamps.back()) {
       const double dt = problem.stamps.empty() ? 0 : secondsBetween(problem.stamps.back(), z.stamp);
-      const Input known = secondsBetween(input_stamp, z.stamp) <= config.input_hold ? input : Input{};
+      const Input known = input.at(z.stamp, config.input_hold);
       const auto transition = problem.model.transition(belief.mean, known, dt);
       if (!problem.stamps.empty()) belief = filter.predict(belief, transition);
       problem.stamps.push_back(z.stamp);
@@ -60,8 +60,7 @@ std::optional<SmoothingProblem> buildProblem(const std::vector<Measurement>& mea
       problem.first.push_back(problem.measurements.size());
     }
     if (z.sensor == Sensor::TurnRate) {
-      input.turn_rate = z.value(0);
-      input_stamp = z.stamp;
+      input.take(z);
     } else {
       problem.measurements.push_back(z);
       problem.model.linearize(z, belief.mean, [&](const auto& linear) { belief = filter.update(belief, linear).belief; });

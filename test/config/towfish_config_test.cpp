@@ -57,6 +57,8 @@ TEST(TowfishConfig, RefusesWithFileKeyValueAndBound) {
   expectRefused("{lag: 5000}", {"lag", "5000", "3600"});
   expectRefused("{lag: 2}", {"start.window", "lag", "2"});
   expectRefused("{sensors: {position: {sigma_deg: 1}}}", {"sensors.position.sigma_deg", "known"});
+  for (const char* key : {"sigma_deg", "floor_deg", "override_message"})  // a turn rate has no weight
+    expectRefused(std::string("{sensors: {turn_rate: {") + key + ": 1}}}", {std::string("sensors.turn_rate.") + key, "model.heading_noise_deg"});
   expectRefused("{sensors: {sonar: {}}}", {"sensors.sonar"});
   expectRefused("{estimators: {robust_kf: {loss: hubert}}}", {"estimators.robust_kf.loss", "hubert", "huber"});
   expectRefused("{estimators: {robust_kf: {max_iterations: 0}}}", {"estimators.robust_kf.max_iterations", "0"});

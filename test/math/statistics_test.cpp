@@ -50,5 +50,11 @@ TEST(Quantile, InterpolatesBetweenOrderStatistics) {
   EXPECT_EQ(quantile({}, 0.5), 0);
 }
 
+TEST(Statistics, TheStandardErrorIsTheSpreadOfMeans) {
+  EXPECT_EQ(standardError({}), 0);
+  EXPECT_EQ(standardError({3}), 0);
+  EXPECT_NEAR(standardError({1, 2, 3, 4}), std::sqrt(5.0 / 3 / 4), 1e-15);
+}
+
 }  // namespace
 }  // namespace sas_motion

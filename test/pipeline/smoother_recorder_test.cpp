@@ -53,6 +53,76 @@ TEST(SmootherRecorder, SaysWhyItCouldNotStart) {
   EXPECT_EQ(single.summary().failure, "no position and heading to start from");
 }
 
+/// Reasons of the audits with a verdict.
+std::vector<std::string> reasons(const Output& output, Verdict verdict) {
+  std::vector<std::string> found;
+  for (const auto& audit : output.audits)
+    if (audit.verdict == verdict) found.emplace_back(audit.reason);
+  return found;
+}
+
+TEST(SmootherRecorder, EveryMeasurementHasAnAuditInTimeOrder) {
+  const auto scenario = testing::survey(30);
+  auto measurements = testing::simulate(scenario, 4).measurements;
+  std::vector<Measurement> early;  // nothing to start from
+  for (int i = 0; i < 3; ++i) {
+    early.push_back(*std::find_if(measurements.begin(), measurements.end(), [](const auto& z) { return z.sensor == Sensor::Speed; }));
+    early.back().stamp -= stampFromSeconds(60 - i);
+  }
+  measurements.insert(measurements.end(), early.begin(), early.end());
+  const auto twice = *std::find_if(measurements.begin() + 40, measurements.end(), [](const auto& z) { return z.sensor == Sensor::Heading; });
+  measurements.insert(measurements.end(), {twice, twice});
+  auto smoother = recorder(testing::configFor(scenario));
+  const auto output = testing::feed(smoother, measurements);
+  EXPECT_EQ(reasons(output, Verdict::Stale), std::vector<std::string>(3, "before the first position and heading"));
+  EXPECT_EQ(reasons(output, Verdict::Invalid), std::vector<std::string>(2, "duplicate stamp"));
+  const auto inputs = std::count_if(measurements.begin(), measurements.end(), [](const auto& z) { return z.sensor == Sensor::TurnRate; });
+  EXPECT_EQ(output.audits.size() + static_cast<std::size_t>(inputs), measurements.size());  // a turn rate that is used has none
+  for (std::size_t i = 1; i < output.audits.size(); ++i) ASSERT_GE(output.audits[i].stamp, output.audits[i - 1].stamp) << i;
+}
+
+TEST(SmootherRecorder, WithoutASolutionEveryMeasurementIsRefused) {
+  const auto scenario = testing::zhu2007(10);
+  const auto measurements = testing::simulate(scenario, 5).measurements;
+  SmootherRecorder broken(testing::configFor(scenario), [](const SmoothingProblem&) {
+    SmootherResult result;
+    result.failure = "broken";
+    return result;
+  });
+  const auto output = testing::feed(broken, measurements);
+  EXPECT_TRUE(output.estimates.empty());
+  EXPECT_EQ(broken.failure(), "broken");
+  EXPECT_EQ(reasons(output, Verdict::Invalid), std::vector<std::string>(measurements.size(), "the smoother found no solution"));
+  auto headings = measurements;
+  headings.erase(std::remove_if(headings.begin(), headings.end(), [](const auto& z) { return z.sensor == Sensor::Position; }), headings.end());
+  auto lost = recorder(testing::configFor(scenario));
+  EXPECT_EQ(reasons(testing::feed(lost, headings), Verdict::Stale).size(), headings.size());
+}
+
+TEST(SmootherRecorder, FinishingTwiceSaysNothingTwice) {
+  const auto scenario = testing::zhu2007(20);
+  const auto measurements = testing::simulate(scenario, 6).measurements;
+  auto smoother = recorder(testing::configFor(scenario));
+  EXPECT_FALSE(testing::feed(smoother, measurements).estimates.empty());
+  EXPECT_EQ(smoother.failure(), "");
+  const auto again = testing::feed(smoother, {});
+  EXPECT_TRUE(again.estimates.empty());
+  EXPECT_TRUE(again.audits.empty());
+  EXPECT_EQ(smoother.failure(), "nothing new since the last solution");
+}
+
+TEST(SmootherRecorder, MoreDataAfterTheEndAreSolvedWithAllBeforeThem) {
+  const auto scenario = testing::zhu2007(40);
+  const auto measurements = testing::simulate(scenario, 7).measurements;
+  const auto half = measurements.begin() + static_cast<std::ptrdiff_t>(measurements.size() / 2);
+  auto smoother = recorder(testing::configFor(scenario)), whole = recorder(testing::configFor(scenario));
+  testing::feed(smoother, {measurements.begin(), half});
+  const auto all = testing::feed(whole, measurements);
+  testing::expectSameEstimates(testing::feed(smoother, {half, measurements.end()}), all, "in two parts");
+  smoother.reset();
+  testing::expectSameEstimates(testing::feed(smoother, measurements), all, "after a reset");
+}
+
 TEST(SmootherRecorder, AuditsCarryTheSmoothedResidualsAndWeights) {
   const auto scenario = testing::zhu2007(40, testing::contaminated(0.1, 20));
   const Config config = testing::configFor(scenario);

@@ -293,7 +293,7 @@ def test_runs_the_tool(tmp_path):
     write_sample(sample)
     bag = tmp_path / 'run.bag'
     bag.write_text('')
-    done = evaluate(bag, '--tool', fake_tool(tmp_path, f'[ "$2" = -o ] && cp "{sample}"/*.json "$3"\n'))
+    done = evaluate(bag, '--tool', fake_tool(tmp_path, f'[ "$2" = -o ] && mkdir "$3" && cp "{sample}"/*.json "$3"\n'))
     assert done.returncode == 0, done.stderr
     assert 'robust_kf' in done.stdout and os.path.isfile(str(tmp_path / 'run_report' / 'report.html'))
 

@@ -98,6 +98,12 @@ def test_scoring_refuses_a_bag(tool, kind, simulated, tmp_path):
     refuse(tool, [bag, "-o", tmp_path / "out"], tmp_path / "out", str(bag))
 
 
+@pytest.mark.parametrize("tool", ["sas_motion_metrics", "evaluate.py"])
+def test_a_failed_scoring_leaves_no_folder(tool, simulated, tmp_path):
+    done = toolbox.run(tool, simulated, "-o", tmp_path / "a" / "b")
+    assert done.returncode == 1 and not list(tmp_path.iterdir())
+
+
 def test_a_bag_damaged_inside_is_named(simulated, tmp_path):
     data = bytearray(simulated.read_bytes())
     for i in range(len(data) // 3, len(data) // 3 + 2000):
@@ -124,6 +130,7 @@ CONFIG = {**YAML, "unknown key": ("sensors: {position: {sigmaa: 1}}", "sensors.p
 SCENARIO = {**YAML, "unknown key": ("durations: 5", "durations"), "out of range": ("step: 0", "step is 0"),
             "wrong law": ("sensors: {speed: {noise: {law: foo}}}", "sensors.speed.noise.law")}
 SUITES = {**YAML, "unknown key": (suite(runz=3), "runz"), "unknown key of a campaign": (suite({"runz": 3}), "runz"), "out of range": (suite(runs=0), "runs is 0"),
+          "all skipped": (suite({"skip": 600}), "skip is 600 but must be less than a run"),
           "no campaigns": ({"name": "small"}, "campaigns"), "no system": (suite({"system": "balloon"}), "balloon"),
           "missing scenario": (suite({"scenario": "nowhere.yaml"}), "nowhere.yaml"), "unknown estimator": (suite({"estimators": ["kf", "kalmann"]}), "kalmann")}
 

@@ -55,7 +55,7 @@ class YamlSection {
   const std::string& file() const { return file_; }
 
  private:
-  YamlSection(YAML::Node node, std::string file, std::string path);
+  YamlSection(const YAML::Node& node, std::string file, std::string path);
   YAML::Node take(const std::string& key);
   std::string pathOf(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 

@@ -76,6 +76,9 @@ struct Reference {
   bool heading_known = true, speed_known = true, current_known = true;
 };
 
+/// Normalised squared error of all six states.
+double normalisedSquare(const Estimate& estimate, const Reference& truth);
+
 /// Collects one estimator's errors over a run, estimate by estimate, and sums them up.
 class Scorer {
  public:
