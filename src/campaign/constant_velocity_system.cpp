@@ -5,6 +5,8 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "sas_motion/evaluation/bounds.hpp"
+#include "sas_motion/evaluation/information.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/models/constant_velocity.hpp"
 #include "sas_motion/pipeline/filter_by_name.hpp"
@@ -166,7 +168,7 @@ class ConstantVelocitySystem final : public System {
     return traces;
   }
 
-  Named<double> bound(std::size_t, const std::vector<std::uint64_t>&) const override { return {}; }
+  Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override;
 
  private:
   Score filtered(const std::string& name, const Law&, const std::vector<Epoch>& epochs, double& seconds) const {
@@ -200,6 +202,33 @@ class ConstantVelocitySystem final : public System {
   towfish::Config config_;
   std::vector<Law> noise_;
 };
+
+/// Linear, so one truth does for what is linearised; where a genie speaks, the bound is averaged over what it says of each seed.
+Named<double> ConstantVelocitySystem::bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const {
+  const MeasurementInformation position(noise_[law].position), velocity(noise_[law].velocity);
+  const auto process = processInformation(noise_[law].process, kStates, model_.step);
+  const auto step = model_.transition(State::Zero());
+  double position_square = 0, velocity_square = 0;
+  std::size_t count = 0;
+  for (const auto seed : seeds) {
+    PosteriorBound<kStates> bound(Matrix<kStates>::Identity());
+    for (const auto& epoch : simulate(model_, noise_[law], duration, seed)) {
+      auto transition = step;
+      if (process.genie) transition.Q *= epoch.process_variance;
+      bound.step({transition}, process.genie ? 1 : process.factor);
+      Vector<kRows> factor;
+      for (int row = 0; row < kRows; ++row)
+        factor(row) = std::isinf(epoch.variance(row)) ? 0 : (row < 3 ? position : velocity).of(epoch.variance(row), epoch.time);
+      bound.measurement<kRows>({model_.measurement(State::Zero().head<kRows>(), State::Zero(), epoch.time)}, {factor});
+      if (epoch.time <= skip) continue;
+      const Vector<kStates> variance = bound.covariance()->diagonal();
+      position_square += variance.head<3>().sum();
+      velocity_square += variance.tail<3>().sum();
+      ++count;
+    }
+  }
+  return {{"position", std::sqrt(position_square / static_cast<double>(count))}, {"velocity", std::sqrt(velocity_square / static_cast<double>(count))}};
+}
 
 }  // namespace
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sas_motion/evaluation/bounds.hpp"
+#include "sas_motion/evaluation/information.hpp"
 #include "systems.hpp"
 
 namespace sas_motion {
@@ -29,6 +31,30 @@ std::optional<double> total(const std::array<Detection, kSensors>& detection, st
     all.hits += d.hits;
   }
   return (all.*share)();
+}
+
+/// Measurement `index` of every run, at truth `k`.
+void addMeasurement(PosteriorBound<kStates>& bound, const Model& model, const std::vector<SimulatedRun>& runs, std::size_t k, std::size_t index,
+                    const std::array<MeasurementInformation, kSensors>& information) {
+  const Measurement& z = runs.front().measurements()[index].z;
+  if (rowsOf(z.sensor) == 0) return;
+  model.linearize(z, runs.front().truth()[k], [&](const auto& first) {
+    constexpr int kRows = std::decay_t<decltype(first)>::kRows;
+    std::vector<LinearMeasurement<kStates, kRows>> linear;
+    std::vector<Vector<kRows>> factors;
+    for (const auto& run : runs) {
+      const auto& labelled = run.measurements()[index];
+      model.linearize(labelled.z, run.truth()[k], [&](const auto& one) {
+        if constexpr (std::decay_t<decltype(one)>::kRows == kRows) linear.push_back(one);
+      });
+      Vector<kRows> factor;
+      for (int row = 0; row < kRows; ++row)
+        factor(row) = information[static_cast<std::size_t>(z.sensor)].of(labelled.variance[static_cast<std::size_t>(row)],
+                                                                           secondsBetween(Simulator::kStart, labelled.z.stamp));
+      factors.push_back(factor);
+    }
+    bound.measurement<kRows>(linear, factors);
+  });
 }
 
 class TowfishSystem final : public System {
@@ -67,7 +93,7 @@ class TowfishSystem final : public System {
     return traces;
   }
 
-  Named<double> bound(std::size_t, const std::vector<std::uint64_t>&) const override { return {}; }
+  Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override;
 
  private:
   EstimatorReport reportOf(const std::string& name, const SimulatedRun& run, const Output& output) const {
@@ -121,6 +147,48 @@ class TowfishSystem final : public System {
   Campaign campaign_;
   EstimatorFactory make_;
 };
+
+/// The recursion over the measurements of all truths at once; nothing for a survey, whose truth is not drawn from the model, and nothing
+/// where sensors drop out, as truths then have no measurements in common.
+Named<double> TowfishSystem::bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const {
+  const Scenario scenario = campaign_.scenarioUnder(campaign_.laws[law]);
+  const auto process = processInformation(scenario.process, kStates, scenario.step);
+  if (scenario.kind != Scenario::Kind::RandomWalk || process.genie) return {};
+  std::vector<SimulatedRun> runs;
+  for (const auto seed : seeds) runs.emplace_back(scenario, seed);
+  for (const auto& run : runs)
+    if (run.measurements().size() != runs.front().measurements().size()) return {};
+  std::array<MeasurementInformation, kSensors> information{MeasurementInformation(scenario.sensors[0].noise), MeasurementInformation(scenario.sensors[1].noise),
+                                                           MeasurementInformation(scenario.sensors[2].noise), MeasurementInformation(scenario.sensors[3].noise)};
+  const Model model(scenario.motion);
+  const StateVector prior = (StateVector() << 1, 1, 1 / scenario.motion.current_sigma, 1 / scenario.motion.current_sigma, 1, 1).finished();
+  PosteriorBound<kStates> bound(prior.cwiseAbs2().asDiagonal());
+  std::array<double, kGroups> squares{};
+  std::size_t count = 0, next = 0;
+  const auto& stamps = runs.front().measurements();
+  for (std::size_t k = 0; k < runs.front().truth().size(); ++k) {
+    const Stamp stamp = Simulator::kStart + static_cast<Stamp>(k) * stampFromSeconds(scenario.step);
+    if (k > 0) {
+      std::vector<Transition<kStates>> steps;
+      for (const auto& run : runs) steps.push_back(model.transition(run.truth()[k - 1], Input{}, scenario.step));
+      bound.step(steps, process.factor);
+    }
+    for (; next < stamps.size() && stamps[next].z.stamp == stamp; ++next) addMeasurement(bound, model, runs, k, next, information);
+    if (!scored(stamp)) continue;
+    const auto P = bound.covariance();
+    if (!P) return {};
+    const StateVector variance = P->diagonal();
+    squares[kPositionGroup] += variance(kNorth) + variance(kEast);
+    squares[kHeadingGroup] += variance(kHeading);
+    squares[kSpeedGroup] += variance(kSpeed);
+    squares[kCurrentGroup] += variance(kCurrentNorth) + variance(kCurrentEast);
+    ++count;
+  }
+  Named<double> result;
+  for (int i = 0; i < kGroups; ++i)
+    result.emplace_back(groupName(static_cast<Group>(i)), std::sqrt(squares[static_cast<std::size_t>(i)] / static_cast<double>(count)));
+  return result;
+}
 
 }  // namespace
 

@@ -18,6 +18,7 @@ struct Transition {
 /// the covariance R of the good (uncontaminated) noise.
 template <int N, int M>
 struct LinearMeasurement {
+  static constexpr int kRows = M;
   Vector<M> innovation;
   Matrix<M, N> H;
   Matrix<M> R;
