@@ -7,6 +7,7 @@
 
 #include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/evaluation/information.hpp"
+#include "sas_motion/filters/law_aware.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/models/constant_velocity.hpp"
 #include "sas_motion/pipeline/filter_by_name.hpp"
@@ -132,7 +133,7 @@ class ConstantVelocitySystem final : public System {
     readConfig(settings, config_);
     settings.finish();
     for (const auto& name : estimators)
-      if (name != kOracle && !withFilter(name, config_, [](const auto&) {}))
+      if (name != kOracle && name != towfish::kBayesReference && !withFilter(name, config_, [](const auto&) {}))
         campaign.fail("estimators", fmt::format("names '{}', which is no filter", name));
     for (auto& item : campaign.list("laws")) {
       std::string law_name;
@@ -171,7 +172,16 @@ class ConstantVelocitySystem final : public System {
   Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override;
 
  private:
-  Score filtered(const std::string& name, const Law&, const std::vector<Epoch>& epochs, double& seconds) const {
+  /// Laws of the velocity may differ from those of the position in their spells alone; bursts are the sensor's.
+  GaussianSumOptions told(const Law& law) const {
+    auto options = lawAware(law.position, law.process, model_.step);
+    const bool alike = law.velocity.name() == law.position.name();
+    options.mode.common = true;
+    options.mode.rows = alike ? 0b1111 : 0b0111;
+    return options;
+  }
+
+  Score filtered(const std::string& name, const Law& law, const std::vector<Epoch>& epochs, double& seconds) const {
     Score score(skip, model_.step);
     const bool oracle = name == kOracle;
     const auto run = [&](const auto& filter) {
@@ -193,6 +203,8 @@ class ConstantVelocitySystem final : public System {
     };
     if (oracle)
       run(KalmanFilter<kStates>());
+    else if (name == towfish::kBayesReference)
+      run(GaussianSumFilter<kStates>(told(law)));
     else
       withFilter(name, config_, run);
     return score;

@@ -65,7 +65,7 @@ class TowfishSystem final : public System {
     skip = campaign_.skip;
     estimators = campaign_.estimators;
     for (const auto& estimator : estimators)
-      if (estimator != kOracle && !make_(estimator, campaign_.config))
+      if (estimator != kOracle && estimator != kBayesReference && !make_(estimator, campaign_.config))
         section.fail("estimators", fmt::format("names '{}', which is no estimator", estimator));
     for (const auto& law : campaign_.laws)
       laws.push_back(lawInfo(law.name, law.noise.value_or(campaign_.scenario.sensor(Sensor::Position).noise), law.process.value_or(campaign_.scenario.process)));

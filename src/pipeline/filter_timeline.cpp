@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sas_motion/filters/bank_kalman_filter.hpp"
+#include "sas_motion/filters/gaussian_sum_filter.hpp"
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/reacquiring_filter.hpp"
@@ -231,6 +233,7 @@ void FilterTimeline<Filter>::forget() {
 }
 
 template class FilterTimeline<BankKalmanFilter<kStates>>;
+template class FilterTimeline<GaussianSumFilter<kStates>>;
 template class FilterTimeline<KalmanFilter<kStates>>;
 template class FilterTimeline<ReacquiringFilter<GatedKalmanFilter<kStates>, kStates>>;
 template class FilterTimeline<ReacquiringFilter<MixtureKalmanFilter<kStates>, kStates>>;
