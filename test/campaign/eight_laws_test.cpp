@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The eight laws on the textbook problem: what bank_kf promises, with room for the few seeds of a test.
+#include <numeric>
+
 #include "campaign/suites.hpp"
 
 namespace sas_motion {
@@ -42,6 +44,38 @@ TEST(EightLaws, TheBankIsAsSureAsItMayBeAndLocksOutOfNothing) {
     EXPECT_LT(mean(values), 1.2) << law;
   }
   EXPECT_LE(locked_out, 2) << "of " << runs.size();
+}
+
+TEST(EightLaws, NobodyBeatsTheBoundAndTheKalmanFilterReachesItOnGaussianNoise) {
+  auto suite = eightLaws(100);
+  suite.campaigns[0]->estimators = {"kf", "bank_kf", "student_t_kf"};
+  const auto runs = testing::runAll(suite);
+  std::vector<std::uint64_t> seeds(100);
+  std::iota(seeds.begin(), seeds.end(), suite.first_seed);
+  for (std::size_t law = 0; law < suite.campaigns[0]->laws.size(); ++law) {
+    const auto& name = suite.campaigns[0]->laws[law].name;
+    const double bound = suite.campaigns[0]->bound(law, seeds).front().second;
+    for (const auto& estimator : suite.campaigns[0]->estimators) EXPECT_GT(testing::rmse(suite, runs, name, estimator), 0.98 * bound) << name << ", " << estimator;
+    if (law == 0) EXPECT_NEAR(testing::rmse(suite, runs, name, "kf") / bound, 1, 0.02);
+  }
+}
+
+TEST(EightLaws, WhatKnowsTheLawIsNearTheOracleAndSaysHowWellItKnows) {
+  auto suite = eightLaws(8);
+  suite.campaigns[0]->estimators = {"oracle_kf", "bayes_reference"};
+  const auto runs = testing::runAll(suite);
+  for (const auto& law : suite.campaigns[0]->laws)
+    EXPECT_NEAR(testing::rmse(suite, runs, law.name, "bayes_reference") / testing::rmse(suite, runs, law.name, "oracle_kf"), 1.1, 0.15) << law.name;
+}
+
+TEST(TowfishSystem, TheKalmanFilterReachesTheBoundOnGaussianNoise) {
+  const auto suite = testing::suiteOf(testing::zhuSuite(120, 40, "[kf]", "[{name: clean}]"));
+  const auto runs = testing::runAll(suite);
+  std::vector<std::uint64_t> seeds(10);
+  std::iota(seeds.begin(), seeds.end(), suite.first_seed);
+  const auto bound = suite.campaigns[0]->bound(0, seeds);
+  EXPECT_EQ(bound.front().first, "position");
+  EXPECT_NEAR(testing::rmse(suite, runs, "clean", "kf") / bound.front().second, 1, 0.06);  // 40 runs of two minutes scatter by 2 %
 }
 
 }  // namespace
