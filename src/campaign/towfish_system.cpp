@@ -50,7 +50,7 @@ void addMeasurement(PosteriorBound<kStates>& bound, const Model& model, const st
       Vector<kRows> factor;
       for (int row = 0; row < kRows; ++row)
         factor(row) = information[static_cast<std::size_t>(z.sensor)].of(labelled.variance[static_cast<std::size_t>(row)],
-                                                                           secondsBetween(Simulator::kStart, labelled.z.stamp));
+                                                                         secondsBetween(Simulator::kStart, labelled.z.stamp));
       factors.push_back(factor);
     }
     bound.measurement<kRows>(linear, factors);
@@ -68,7 +68,8 @@ class TowfishSystem final : public System {
       if (estimator != kOracle && estimator != kBayesReference && !make_(estimator, campaign_.config))
         section.fail("estimators", fmt::format("names '{}', which is no estimator", estimator));
     for (const auto& law : campaign_.laws)
-      laws.push_back(lawInfo(law.name, law.noise.value_or(campaign_.scenario.sensor(Sensor::Position).noise), law.process.value_or(campaign_.scenario.process)));
+      laws.push_back(
+          lawInfo(law.name, law.noise.value_or(campaign_.scenario.sensor(Sensor::Position).noise), law.process.value_or(campaign_.scenario.process)));
   }
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
@@ -159,7 +160,8 @@ Named<double> TowfishSystem::bound(std::size_t law, const std::vector<std::uint6
   for (const auto& run : runs)
     if (run.measurements().size() != runs.front().measurements().size()) return {};
   std::array<MeasurementInformation, kSensors> information{MeasurementInformation(scenario.sensors[0].noise), MeasurementInformation(scenario.sensors[1].noise),
-                                                           MeasurementInformation(scenario.sensors[2].noise), MeasurementInformation(scenario.sensors[3].noise)};
+                                                           MeasurementInformation(scenario.sensors[2].noise),
+                                                           MeasurementInformation(scenario.sensors[3].noise)};
   const Model model(scenario.motion);
   const StateVector prior = (StateVector() << 1, 1, 1 / scenario.motion.current_sigma, 1 / scenario.motion.current_sigma, 1, 1).finished();
   PosteriorBound<kStates> bound(prior.cwiseAbs2().asDiagonal());

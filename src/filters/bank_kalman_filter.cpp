@@ -14,12 +14,12 @@
 namespace sas_motion {
 namespace {
 
-constexpr double kFade = 0.5;        // an epoch: stickiness beyond the longest burst
-constexpr double kPriorCount = 50;   // readings or epochs that the options' probabilities are worth
-constexpr double kMemory = 300;      // readings or epochs after which old ones are forgotten
-constexpr double kSmallestShare = 0.1;  // of a scale's own probability: nothing is ever ruled out
+constexpr double kFade = 0.5;                         // an epoch: stickiness beyond the longest burst
+constexpr double kPriorCount = 50;                    // readings or epochs that the options' probabilities are worth
+constexpr double kMemory = 300;                       // readings or epochs after which old ones are forgotten
+constexpr double kSmallestShare = 0.1;                // of a scale's own probability: nothing is ever ruled out
 constexpr double kFewestJumps = 0.1, kMostJumps = 5;  // of the jump probability
-constexpr double kLeastWeight = 1e-30;  // a hypothesis can always come back
+constexpr double kLeastWeight = 1e-30;                // a hypothesis can always come back
 constexpr int kRowsPerSource = 8;
 
 void require(bool holds, const char* key, double value, const char* must) {
@@ -131,8 +131,7 @@ void BankKalmanFilter<N>::openEpoch(Belief& belief, double time) const {
   auto& bank = belief.hypotheses;
   belief.epochs = std::min(belief.epochs + 1, kMemory);
   belief.jump_probability += (bank[kOldest].weight - belief.jump_probability) / belief.epochs;
-  belief.jump_probability =
-      std::clamp(belief.jump_probability, kFewestJumps * options_.jump_probability, kMostJumps * options_.jump_probability);
+  belief.jump_probability = std::clamp(belief.jump_probability, kFewestJumps * options_.jump_probability, kMostJumps * options_.jump_probability);
   const double stay = std::pow(1 - belief.jump_probability, epochs);  // a pause of the data may hold several epochs
 
   const auto none = merged(belief, [](int i) { return i == 0 || i == kOldest; });

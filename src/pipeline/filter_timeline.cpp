@@ -119,8 +119,7 @@ typename FilterTimeline<Filter>::Moment FilterTimeline<Filter>::predicted(const 
   Moment to = from;
   to.stamp = stamp;
   if (stamp == from.stamp) return to;
-  const bool known = secondsBetween(from.input_stamp, stamp) <= config_.input_hold;
-  const auto transition = model_.transition(gaussian(from.belief).mean, known ? from.input : Input{}, secondsBetween(from.stamp, stamp));
+  const auto transition = model_.transition(gaussian(from.belief).mean, from.input.at(stamp, config_.input_hold), secondsBetween(from.stamp, stamp));
   to.belief = filter_->predict(from.belief, transition);
   return to;
 }
@@ -130,8 +129,7 @@ void FilterTimeline<Filter>::fuse(const Moment& from, Entry& entry) const {
   const Measurement& z = entry.z;
   entry.after = predicted(from, z.stamp);
   if (z.sensor == Sensor::TurnRate) {
-    entry.after.input.turn_rate = z.value(0);
-    entry.after.input_stamp = z.stamp;
+    entry.after.input.take(z);
     entry.audit = refusal(z, Verdict::Accepted, "");
     return;
   }
