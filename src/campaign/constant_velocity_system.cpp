@@ -144,6 +144,10 @@ class ConstantVelocitySystem final : public System {
       law.process = NoiseMix::read(item, "process", NoiseUse::Process);
       item.finish();
       laws.push_back(lawInfo(law_name, law.position, law.process));
+      if (law.velocity.name() != law.position.name()) {
+        laws.back().description += ", velocity " + law.velocity.name();
+        laws.back().epsilon = laws.back().K = std::nullopt;
+      }
       noise_.push_back(law);
     }
     if (laws.empty()) campaign.fail("laws", "is missing; list at least one");
@@ -233,7 +237,9 @@ Named<double> ConstantVelocitySystem::bound(std::size_t law, const std::vector<s
         factor(row) = std::isinf(epoch.variance(row)) ? 0 : (row < 3 ? position : velocity).of(epoch.variance(row), epoch.time);
       bound.measurement<kRows>({model_.measurement(State::Zero().head<kRows>(), State::Zero(), epoch.time)}, {factor});
       if (epoch.time <= skip) continue;
-      const Vector<kStates> variance = bound.covariance()->diagonal();
+      const auto P = bound.covariance();
+      if (!P) return {};
+      const Vector<kStates> variance = P->diagonal();
       position_square += variance.head<3>().sum();
       velocity_square += variance.tail<3>().sum();
       ++count;

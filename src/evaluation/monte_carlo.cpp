@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "sas_motion/filters/law_aware.hpp"
@@ -33,10 +34,17 @@ CampaignLaw readLaw(YamlSection& yaml) {
   return law;
 }
 
+/// Updates a second of the fastest sensor.
+double fastestRate(const Scenario& scenario) {
+  double rate = 1 / scenario.duration;
+  for (const auto sensor : kNoisy) rate = std::max(rate, scenario.sensor(sensor).rate);
+  return rate;
+}
+
 /// The law-aware reference: told the position's law for all sensors, and which rows have its spells.
 std::unique_ptr<Estimator> makeBayesReference(const Campaign& campaign, const Scenario& scenario) {
   const auto& law = scenario.sensor(Sensor::Position).noise;
-  auto options = lawAware(law, scenario.process, 1 / scenario.sensor(Sensor::Heading).rate);
+  auto options = lawAware(law, scenario.process, 1 / fastestRate(scenario));
   options.mode.common = true;
   options.mode.rows = 0;
   for (const auto sensor : kNoisy)

@@ -14,7 +14,7 @@
 namespace sas_motion {
 namespace {
 
-constexpr double kSaysNothing = 1e6;      // variance of a row with an unknown bias, over the good one
+constexpr double kUninformative = 1e6;      // variance of a row with an unknown bias, over the good one
 constexpr double kBeyondReach = 40;       // a branch whose log-weight is so far below the best's is not followed
 constexpr double kEpochTolerance = 1e-4;  // of an epoch: stamps since 1970 are no finer in a double
 
@@ -119,7 +119,7 @@ double GaussianSumFilter<N>::fuse(Belief& belief, const Row& row) const {
       if (change == 0) continue;
       const double log_weight = parents[i].log_weight + std::log(change);
       if (is && !options_.mode.bias) {
-        branch(i, log_weight, innovation, kSaysNothing, v, is);
+        branch(i, log_weight, innovation, kUninformative, v, is);
         continue;
       }
       for (const auto& term : options_.measurement)

@@ -153,6 +153,7 @@ void EstimatorServer::startAnew() {
   ingest_ = std::move(fresh);
   for (auto& lane : lanes_) {
     lane.estimator->reset();
+    lane.publisher.clear();  // it is of another start, and may be of another datum
     lane.published = 0;
     lane.verdicts.fill(0);
   }

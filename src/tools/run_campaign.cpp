@@ -4,7 +4,9 @@
 // run_campaign SUITE.yaml: the worker of benchmark. Simulates, estimates and scores; prints JSON. See docs/benchmark.md.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
@@ -64,7 +66,8 @@ json toJson(const EstimatorReport& report) {
 
 std::string lineOf(const Suite& suite, std::size_t index) {
   const auto [campaign, law, seed] = suite.task(index);
-  json line{{"task", index}, {"campaign", campaign->title}, {"law", campaign->laws[law].name}, {"seed", seed}};
+  json line{{"task", index}, {"campaign", campaign->title}, {"law", campaign->laws[law].name},
+            {"seed", seed},  {"config_hash", suite.hash},   {"version", SAS_MOTION_VERSION}};
   for (const auto& report : campaign->run(law, seed)) {
     line["results"][report.estimator] = toJson(report);
     line["cost"][report.estimator] = report.microseconds;

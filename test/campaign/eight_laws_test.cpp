@@ -19,7 +19,8 @@ Suite eightLaws(int runs) {
 TEST(EightLaws, TheBankIsNearTheOracleUnderEveryLawWithOneTuning) {
   const auto suite = eightLaws(60);
   const auto runs = testing::runAll(suite);
-  const std::vector<double> most{1.03, 1.10, 1.06, 1.12, 1.25, 1.09, 1.25, 1.10};
+  // the specification's targets with the scatter of 60 seeds: 1.5 %, and more where a single run can be ten times off
+  const std::vector<double> most{1.03, 1.09, 1.05, 1.12, 1.25, 1.09, 1.25, 1.06};
   for (std::size_t law = 0; law < most.size(); ++law) {
     const auto& name = suite.campaigns[0]->laws[law].name;
     const double ratio = testing::rmse(suite, runs, name, "bank_kf") / testing::rmse(suite, runs, name, "oracle_kf");
@@ -40,10 +41,10 @@ TEST(EightLaws, TheBankIsAsSureAsItMayBeAndLocksOutOfNothing) {
     EXPECT_FALSE(bank.diverged);
   }
   for (const auto& [law, values] : nees) {
-    EXPECT_GT(mean(values), 0.78) << law;
-    EXPECT_LT(mean(values), 1.2) << law;
+    EXPECT_GT(mean(values), 0.80) << law;
+    EXPECT_LT(mean(values), 1.15) << law;
   }
-  EXPECT_LE(locked_out, 2) << "of " << runs.size();
+  EXPECT_LE(locked_out, 1) << "of " << runs.size() << "; 1,000 seeds a law are in docs/results.md";
 }
 
 TEST(EightLaws, NobodyBeatsTheBoundAndTheKalmanFilterReachesItOnGaussianNoise) {
