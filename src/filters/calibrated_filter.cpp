@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/filters/calibrated_filter.hpp"
+
+#include <algorithm>
+
+#include "instantiate.hpp"
+#include "sas_motion/filters/conditioning.hpp"
+#include "sas_motion/filters/robust_kalman_filter.hpp"
+#include "sas_motion/filters/student_t_kalman_filter.hpp"
+
+namespace sas_motion {
+namespace {
+
+constexpr double kPriorCount = 20;     // readings that the assumption of good ones is worth
+constexpr double kMemory = 300;        // readings after which old ones are forgotten
+constexpr double kLeastSlope = 1e-12;  // a negative one, of a loss that redescends, counts as none
+
+/// The variance of each row's prediction over R, as the other rows leave it: 1 / (R S^{-1}) - 1.
+template <int M>
+Vector<M> predictedVariance(const Matrix<M>& S, const Matrix<M>& R) {
+  const Matrix<M> inverse = Innovation<M>(S).solve(Matrix<M>::Identity());
+  return ((R.diagonal().array() * inverse.diagonal().array()).inverse() - 1).max(0);
+}
+
+/// Takes a reading into a row's averages. `t` is the variance of its prediction over R, as the filter has it.
+void learn(LearnedInfluence& row, const Influence& influence, double t) {
+  if (row.readings == 0) row.readings = kPriorCount;
+  row.readings = std::min(row.readings + 1, kMemory);
+  const auto average = [&row](double& sum, double value) { sum += (value - sum) / row.readings; };
+  const double square = (1 + t) * influence.psi * influence.psi;
+  const double gain = (1 + t) * influence.slope / (1 + t * influence.slope);
+  average(row.believed, influence.weight * square);
+  average(row.clipped, (1 - influence.weight) * square);
+  average(row.gain, gain * gain);
+}
+
+/// The noise that a row's influence lets through, over R and t^2 / (1 + t)^2. `s` is the variance of the prediction, calibrated.
+double noiseThrough(const LearnedInfluence& row, double t, double s) {
+  const double good = (1 + s) / (1 + t);  // square of the influence of good readings, had it no bound
+  const double square = std::min(row.believed, good) + row.clipped;  // readings that are believed do not speak against R
+  return std::max(0.0, (1 + t) * std::max(square, good * row.gain * row.gain) - s * row.gain);  // nothing beats good readings
+}
+
+}  // namespace
+
+template <class Filter, int N>
+CalibratedBelief<N> CalibratedFilter<Filter, N>::predict(const Belief& belief, const Transition<N>& transition) const {
+  Belief prior = belief;
+  prior.state = filter_.predict(belief.state, transition);
+  if (belief.started) prior.own = filter_.predict(own(belief), transition).covariance;
+  return prior;
+}
+
+template <class Filter, int N>
+template <int M>
+Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
+  static_assert(M <= Belief::kMaxRows);
+  const Gaussian<N> own_prior = own(prior);
+  const auto inner = filter_.update(own_prior, z);
+  Update<Belief, M> result{prior, inner.innovation, inner.S, inner.nis, inner.weights, inner.iterations, inner.converged, inner.verdict};
+  if (inner.verdict == Verdict::Invalid) return result;
+  Belief& belief = result.belief;
+  if (!filter_.calibrates()) {
+    belief.state = inner.belief;
+    return result;
+  }
+  belief.state.mean = inner.belief.mean;
+  belief.own = inner.belief.covariance;
+  belief.started = true;
+  const Projection<N, M> projection(own_prior.covariance, z.H), told(prior.state.covariance, z.H);
+  const Vector<M> t = predictedVariance<M>(inner.S, z.R), s = predictedVariance<M>(told.HPHt + z.R, z.R);
+  const Vector<M> residual = z.innovation - z.H * (inner.belief.mean - own_prior.mean);
+  Matrix<M> S = projection.HPHt;
+  Vector<M> noise;  // of the influence, E[psi^2] less what the prediction's error has in it
+  for (int row = 0; row < M; ++row) {
+    const double R = z.R(row, row), variance = z.H.row(row).dot(inner.belief.covariance * z.H.row(row).transpose());
+    Influence influence = filter_.influence(residual(row) / std::sqrt(R), variance / R);
+    influence.slope = std::max(kLeastSlope, influence.slope);
+    auto& learned = belief.learned[static_cast<std::size_t>(z.source)][static_cast<std::size_t>(row)];
+    learn(learned, influence, t(row));
+    noise(row) = noiseThrough(learned, t(row), s(row)) / (R * (1 + t(row)) * (1 + t(row)));
+    S(row, row) += R / influence.slope;
+  }
+  // (I - K H) P (I - K H)^T + P_own H^T noise H P_own with K the gain on a change of the reading
+  const Matrix<N, M> K = Innovation<M>(S).solve(projection.PHt.transpose()).transpose();
+  const Matrix<N, M> right = told.PHt - K * told.HPHt;
+  belief.state.covariance.noalias() -= K * told.PHt.transpose();
+  belief.state.covariance.noalias() -= right * K.transpose();
+  belief.state.covariance.noalias() += projection.PHt * noise.asDiagonal() * projection.PHt.transpose();
+  symmetrize(belief.state.covariance);
+  return result;
+}
+
+#define SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, N, M) \
+  template Update<CalibratedBelief<N>, M> CalibratedFilter<Filter<N>, N>::update<M>(const CalibratedBelief<N>&, const LinearMeasurement<N, M>&) const;
+#define SAS_MOTION_INSTANTIATE_CALIBRATED(Filter)        \
+  template class CalibratedFilter<Filter<2>, 2>;         \
+  template class CalibratedFilter<Filter<6>, 6>;         \
+  SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, 2, 1) \
+  SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, 6, 1) \
+  SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, 6, 2) \
+  SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, 6, 4)
+SAS_MOTION_INSTANTIATE_CALIBRATED(RobustKalmanFilter)
+SAS_MOTION_INSTANTIATE_CALIBRATED(StudentTKalmanFilter)
+
+}  // namespace sas_motion
