@@ -16,13 +16,6 @@ constexpr double kPriorCount = 20;     // readings that the assumption of good o
 constexpr double kMemory = 300;        // readings after which old ones are forgotten
 constexpr double kLeastSlope = 1e-12;  // a negative one, of a loss that redescends, counts as none
 
-/// The variance of each row's prediction over R, as the other rows leave it: 1 / (R S^{-1}) - 1.
-template <int M>
-Vector<M> predictedVariance(const Matrix<M>& S, const Matrix<M>& R) {
-  const Matrix<M> inverse = Innovation<M>(S).solve(Matrix<M>::Identity());
-  return ((R.diagonal().array() * inverse.diagonal().array()).inverse() - 1).max(0);
-}
-
 /// Takes a reading into a row's averages. `t` is the variance of its prediction over R, as the filter has it.
 void learn(LearnedInfluence& row, const Influence& influence, double t) {
   if (row.readings == 0) row.readings = kPriorCount;
@@ -68,26 +61,26 @@ Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief&
   belief.state.mean = inner.belief.mean;
   belief.own = inner.belief.covariance;
   belief.started = true;
-  const Projection<N, M> projection(own_prior.covariance, z.H), told(prior.state.covariance, z.H);
-  const Vector<M> t = predictedVariance<M>(inner.S, z.R), s = predictedVariance<M>(told.HPHt + z.R, z.R);
+  const Projection<N, M> own_rows(own_prior.covariance, z.H), rows(prior.state.covariance, z.H);
+  const Vector<M> t = own_rows.HPHt.diagonal().cwiseQuotient(z.R.diagonal()), s = rows.HPHt.diagonal().cwiseQuotient(z.R.diagonal());
   const Vector<M> residual = z.innovation - z.H * (inner.belief.mean - own_prior.mean);
-  Matrix<M> S = projection.HPHt;
-  Vector<M> noise;  // of the influence, E[psi^2] less what the prediction's error has in it
+  Matrix<M> S = own_rows.HPHt;
+  Vector<M> noise;
   for (int row = 0; row < M; ++row) {
-    const double R = z.R(row, row), variance = z.H.row(row).dot(inner.belief.covariance * z.H.row(row).transpose());
-    Influence influence = filter_.influence(residual(row) / std::sqrt(R), variance / R);
+    const double R = z.R(row, row), after = t(row) / (1 + t(row) * inner.weights(row));  // variance of the residual's prediction, over R
+    Influence influence = filter_.influence(residual(row) / std::sqrt(R), after);
     influence.slope = std::max(kLeastSlope, influence.slope);
     auto& learned = belief.learned[static_cast<std::size_t>(z.source)][static_cast<std::size_t>(row)];
     learn(learned, influence, t(row));
-    noise(row) = noiseThrough(learned, t(row), s(row)) / (R * (1 + t(row)) * (1 + t(row)));
+    noise(row) = R * noiseThrough(learned, t(row), s(row));
     S(row, row) += R / influence.slope;
   }
-  // (I - K H) P (I - K H)^T + P_own H^T noise H P_own with K the gain on a change of the reading
-  const Matrix<N, M> K = Innovation<M>(S).solve(projection.PHt.transpose()).transpose();
-  const Matrix<N, M> right = told.PHt - K * told.HPHt;
-  belief.state.covariance.noalias() -= K * told.PHt.transpose();
-  belief.state.covariance.noalias() -= right * K.transpose();
-  belief.state.covariance.noalias() += projection.PHt * noise.asDiagonal() * projection.PHt.transpose();
+  // (I - K H) P (I - K H)^T + G noise G^T, with K the gain on a change of the reading and G a Kalman filter's
+  const Matrix<M> J = S.inverse(), J_kalman = inner.S.inverse();  // the filter has factorized the second, and the first is larger
+  const Matrix<M> back = J * rows.HPHt * J + J_kalman * noise.asDiagonal() * J_kalman;
+  const Matrix<M, N> half = J * rows.PHt.transpose() - 0.5 * back * own_rows.PHt.transpose();
+  const Matrix<N> less = own_rows.PHt * half;
+  belief.state.covariance -= less + less.transpose();
   symmetrize(belief.state.covariance);
   return result;
 }

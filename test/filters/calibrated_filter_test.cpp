@@ -26,14 +26,14 @@ Robust::Options robust(const Loss& loss, bool calibrate = true) {
 }
 
 /// A run of the textbook problem: `share` of the readings `K` times too noisy, the others `scale` times.
-struct Run {
+struct Simulated {
   std::vector<Vector<6>> truth;
   std::vector<Vector<4>> z;
 };
 
-Run simulate(Random& random, double share, double K, double scale = 1, int epochs = 300) {
+Simulated simulate(Random& random, double share, double K, double scale = 1, int epochs = 300) {
   const constant_velocity::Model model;
-  Run run;
+  Simulated run;
   Vector<6> x = Vector<6>::Zero();
   for (int k = 0; k < epochs; ++k) {
     const auto step = model.transition(x);
@@ -48,7 +48,7 @@ Run simulate(Random& random, double share, double K, double scale = 1, int epoch
 
 /// Calls `see` with the belief after each epoch.
 template <class Filter, class See>
-void follow(const Filter& filter, const Run& run, See&& see) {
+void follow(const Filter& filter, const Simulated& run, See&& see) {
   const constant_velocity::Model model;
   typename Filter::Belief belief{Gaussian<6>()};
   for (std::size_t k = 0; k < run.z.size(); ++k) {
@@ -59,7 +59,7 @@ void follow(const Filter& filter, const Run& run, See&& see) {
 }
 
 template <class Filter>
-std::vector<Gaussian<6>> answers(const Filter& filter, const Run& run) {
+std::vector<Gaussian<6>> answers(const Filter& filter, const Simulated& run) {
   std::vector<Gaussian<6>> all;
   follow(filter, run, [&](std::size_t, const Gaussian<6>& belief) { all.push_back(belief); });
   return all;
@@ -71,7 +71,7 @@ double nees(const Filter& filter, double share, double K) {
   std::vector<double> values;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
-    const Run run = simulate(random, share, K);
+    const Simulated run = simulate(random, share, K);
     follow(filter, run, [&](std::size_t k, const Gaussian<6>& belief) {
       const Vector<6> error = belief.mean - run.truth[k];
       if (k >= 20) values.push_back(error.dot(belief.covariance.llt().solve(error)) / 6);
@@ -81,7 +81,7 @@ double nees(const Filter& filter, double share, double K) {
 }
 
 template <class Filter>
-void expectTheSame(const Filter& filter, const std::vector<Gaussian<6>>& expected, const Run& run, const char* what) {
+void expectTheSame(const Filter& filter, const std::vector<Gaussian<6>>& expected, const Simulated& run, const char* what) {
   const auto found = answers(filter, run);
   for (std::size_t k = 0; k < expected.size(); ++k) {
     ASSERT_EQ(found[k].mean, expected[k].mean) << what << ", epoch " << k;
@@ -91,7 +91,7 @@ void expectTheSame(const Filter& filter, const std::vector<Gaussian<6>>& expecte
 
 TEST(CalibratedFilter, MeansAreTheFiltersOwnToTheLastBit) {
   Random random = testing::announced(91);
-  const Run run = simulate(random, 0.2, 20);
+  const Simulated run = simulate(random, 0.2, 20);
   for (const auto& name : lossNames()) {
     const Robust inner(robust(Loss(lossFromName(name))));
     const auto plain = answers(inner, run), calibrated = answers(CalibratedFilter<Robust, 6>(inner), run);
@@ -101,7 +101,7 @@ TEST(CalibratedFilter, MeansAreTheFiltersOwnToTheLastBit) {
 
 TEST(CalibratedFilter, SwitchedOffItIsTheFilterToTheLastBit) {
   Random random = testing::announced(92);
-  const Run run = simulate(random, 0.2, 20);
+  const Simulated run = simulate(random, 0.2, 20);
   const Robust huber(robust(Loss(LossKind::Huber), false));
   expectTheSame(CalibratedFilter<Robust, 6>(huber), answers(huber, run), run, "huber");
   const StudentT student({4, 30, 1e-6, false});
@@ -110,7 +110,7 @@ TEST(CalibratedFilter, SwitchedOffItIsTheFilterToTheLastBit) {
 
 TEST(CalibratedFilter, OnePassAndProcessWeightsAreLeftAsTheyAre) {
   Random random = testing::announced(93);
-  const Run run = simulate(random, 0.2, 20);
+  const Simulated run = simulate(random, 0.2, 20);
   for (const auto& [iterations, process] : {std::pair(1, false), std::pair(10, true)}) {
     auto options = robust(Loss(LossKind::Huber));
     options.max_iterations = iterations;
@@ -122,7 +122,7 @@ TEST(CalibratedFilter, OnePassAndProcessWeightsAreLeftAsTheyAre) {
 TEST(CalibratedFilter, WhereNothingIsClippedItIsTheKalmanFilterHoweverNoisyTheReadings) {
   Random random = testing::announced(94);
   for (const double scale : {0.3, 1.0, 3.0}) {
-    const Run run = simulate(random, 0, 1, scale);
+    const Simulated run = simulate(random, 0, 1, scale);
     const auto kalman = answers(KalmanFilter<6>(), run);
     const auto expectKalman = [&](const auto& filter, const std::string& what) {
       const auto found = answers(filter, run);
@@ -166,7 +166,7 @@ TEST(CalibratedFilter, ComingBackAfterALockOutWidensBothCovariances) {
   const ReacquiringFilter<Robust, 6> plain(inner, 5);
   const ReacquiringFilter<CalibratedFilter<Robust, 6>, 6> calibrated(CalibratedFilter<Robust, 6>(inner), 5);
   Random random = testing::announced(95);
-  Run run = simulate(random, 0, 1);
+  Simulated run = simulate(random, 0, 1);
   for (std::size_t k = 150; k < run.z.size(); ++k) run.z[k](0) += 200;  // the sensor's datum has moved
   const auto expected = answers(plain, run), found = answers(calibrated, run);
   EXPECT_NEAR(found.back().mean(0) - run.truth.back()(0), 200, 5);

@@ -31,7 +31,7 @@ class StudentTKalmanFilter {
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
 
-  /// For CalibratedFilter: psi(r) = lambda r, with `variance` the variance of the residual at the posterior over R, which hardly moves with it.
+  /// For CalibratedFilter: psi(r) = lambda r, with `variance` that of the posterior in this row over R, taken as fixed.
   bool calibrates() const { return options_.calibrate; }
   Influence influence(double residual, double variance) const;
 
