@@ -10,17 +10,26 @@ tools=$(catkin_find --first-only --libexec sas_motion)
 out=${OUT_DIR:-$root/bench}
 smoke=${SMOKE:-0}
 mkdir -p "$out"
-runs=100 nodes=100000 seconds=3600
-[ "$smoke" = 0 ] || { runs=1 nodes=1000 seconds=60; }
+nodes=100000 seconds=3600
+[ "$smoke" = 0 ] || { nodes=1000 seconds=60; }
 
-echo "bench: accuracy ($runs seeds of 600 s)"
-"$tools/benchmark" "$root/config/suites/accuracy.yaml" -o "$out/accuracy" --runs "$runs" | tee "$out/accuracy.txt"
-echo; echo "bench: accuracy of the smoothers (a tenth of the seeds)"
-"$tools/benchmark" "$root/config/suites/smoothers.yaml" -o "$out/smoothers" --runs $(((runs + 9) / 10)) | tee "$out/smoothers.txt"
-echo; echo "bench: accuracy of the asynchronous survey ($runs seeds)"
-"$tools/benchmark" "$root/config/suites/survey.yaml" -o "$out/survey" --runs "$runs" | tee "$out/survey.txt"
+campaign() {  # SUITE RUNS
+  echo "bench: suite $1 ($2 seeds)"
+  "$tools/benchmark" "$root/config/suites/$1.yaml" -o "$out/$1" --runs "$2" --fresh | tee "$out/$1.txt"
+  echo
+}
+if [ "$smoke" = 1 ]; then
+  campaign smoke 2
+else
+  campaign accuracy 100   # the paper's case
+  campaign cauchy 100     # the smoother with a redescending loss
+  campaign smoothers 10   # rts beside batch
+  campaign survey 100     # the asynchronous survey
+  campaign eight_laws 1000
+  campaign asynchronous 100
+fi
 
-echo; echo "bench: predict and update of all four channels"
+echo "bench: predict and update of all four channels"
 "$tools/filter_speed" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_out="$out/filters.json" --benchmark_out_format=json >/dev/null 2>&1
 venv="$root/.venv"
 [ -x "$venv/bin/python" ] || /usr/bin/python3 -m venv "$venv"

@@ -44,16 +44,17 @@ build_with() {
 
 check_address() {
   echo "check: tests and tools under the address and undefined-behaviour sanitizers (about 15 minutes to build on two cores the first time)"
-  build_with address address,undefined core_tests filter_tests allocation_tests pipeline_tests graph_tests simulate reprocess sas_motion_metrics benchmark
+  build_with address address,undefined core_tests filter_tests allocation_tests pipeline_tests graph_tests simulate reprocess sas_motion_metrics run_campaign
   for tests in core filter allocation pipeline graph; do (cd "$work/address/test" && "./${tests}_tests" --gtest_brief=1); done
   # ROS's own libraries leave a few objects behind at exit.
   (set +u; source "$work/address/devel/setup.bash"; ASAN_OPTIONS=detect_leaks=0 /usr/bin/python3 -m pytest -q -p no:cacheprovider test/python/test_tools.py)
 }
 
 check_thread() {
-  echo "check: the Monte Carlo threads under the thread sanitizer"
-  build_with thread thread core_tests
-  (cd "$work/thread/test" && ./core_tests --gtest_brief=1 --gtest_filter='MonteCarlo*:CpuTime*')
+  echo "check: what runs on threads under the thread sanitizer"
+  build_with thread thread core_tests pipeline_tests
+  (cd "$work/thread/test" && ./core_tests --gtest_brief=1 --gtest_filter='BackgroundFile*:CpuTime*' &&
+    ./pipeline_tests --gtest_brief=1 --gtest_filter='OrderedTasks*:TowfishSystem.ALaw*')
 }
 
 for step in "$@"; do

@@ -20,6 +20,6 @@ def kept_runs(results, rmse, clean_median):
 
 
 def lockouts(results):
-    """Returns how many runs ended with the filter refusing its sensor, or None where nobody looked."""
+    """Returns how many runs were sure of a wrong place, or None where nobody looked."""
     told = [result['locked_out'] for result in results if isinstance(result.get('locked_out'), bool)]
     return sum(told) if told else None

@@ -20,6 +20,7 @@ class Store:
     def __init__(self, folder, plan, fresh=False):
         self.folder, self.plan, self.partial = folder, plan, None
         self.records = {}
+        self.lock()
         if fresh:
             self.clear()
         self.load('results.jsonl', costs_by_key(self.path('costs.json')))
@@ -29,6 +30,14 @@ class Store:
     def path(self, name):
         """Returns the path of a file of the folder."""
         return os.path.join(self.folder, name)
+
+    def lock(self):
+        """Takes the folder for this process alone."""
+        try:
+            self.held = os.open(self.folder, os.O_RDONLY)  # the folder: a lock on a file that is removed keeps nobody out
+            fcntl.flock(self.held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise ReportError(f'another benchmark is writing to {self.folder}; wait for it or name another folder with -o') from None
 
     def clear(self):
         """Removes what an earlier campaign left."""
@@ -73,14 +82,11 @@ class Store:
         return [task for task, key in enumerate(self.plan.keys) if key not in self.records]
 
     def open(self):
-        """Opens the partial file for appending, without a torn last line, for this process alone."""
+        """Opens the partial file for appending, without a torn last line."""
         try:
             self.partial = open(self.path('results.partial.jsonl'), 'ab+', buffering=0)  # what fails to be written must not come again on closing
-            fcntl.flock(self.partial, fcntl.LOCK_EX | fcntl.LOCK_NB)
             self.partial.seek(0)
             self.partial.truncate(self.partial.read().rfind(b'\n') + 1)
-        except BlockingIOError:
-            raise ReportError(f'another benchmark is writing to {self.folder}; wait for it or name another folder with -o') from None
         except OSError as error:
             raise ReportError(f'{self.path("results.partial.jsonl")} cannot be written ({error.strerror}); free the disk or name another folder with -o') from None
 
@@ -113,3 +119,4 @@ class Store:
         if finished or self.partial.tell() == 0:
             os.remove(self.partial.name)
         self.partial.close()
+        os.close(self.held)

@@ -73,8 +73,8 @@ def read_record(plan, line, task):
     """Returns the checked record of one task from the line that run_campaign printed for it."""
     record = parse(line, f'--tasks {task}')
     campaign, law, seed = plan.keys[task]
-    expected = {'task': task, 'campaign': campaign, 'law': law, 'seed': seed}
+    expected = {'task': task, 'campaign': campaign, 'law': law, 'seed': seed, 'config_hash': plan.config_hash, 'version': plan.version}
     found = {key: record.get(key) for key in expected} if isinstance(record, dict) else None
     if found != expected or not isinstance(record.get('results'), dict):
-        raise ReportError(f'run_campaign answered {found} where {expected} belongs; build run_campaign and benchmark from the same source')
+        raise ReportError(f'run_campaign answered {found} where {expected} belongs; every machine needs the same build and suite')
     return {'campaign': campaign, 'law': law, 'seed': seed, 'results': record['results'], 'cost': record.get('cost')}

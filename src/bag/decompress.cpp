@@ -20,6 +20,8 @@ constexpr std::size_t kMost = std::numeric_limits<int>::max();  // both librarie
 /// Both libraries take what they only read as char*.
 char* writable(const std::uint8_t* data) { return const_cast<char*>(reinterpret_cast<const char*>(data)); }
 
+constexpr std::size_t kLeast = 4096;  // bytes of room, so that doubling it leads somewhere
+
 /// bzip2 has no highest ratio, so the memory grows with what comes out.
 void decompressBz2(Bytes packed, std::size_t size, Buffer& unpacked) {
   bz_stream stream{};
@@ -28,7 +30,7 @@ void decompressBz2(Bytes packed, std::size_t size, Buffer& unpacked) {
   stream.avail_in = static_cast<unsigned>(packed.size());
   std::size_t done = 0;
   int status = BZ_OK;
-  unpacked.resize(std::min(size, std::max(unpacked.capacity(), 8 * packed.size())));
+  unpacked.resize(std::min(size, std::max({unpacked.capacity(), 8 * packed.size(), kLeast})));
   while (status == BZ_OK) {
     if (done == unpacked.size()) unpacked.resize(std::min(size, 2 * done));
     const std::size_t room = unpacked.size() - done;

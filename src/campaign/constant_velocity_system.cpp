@@ -7,6 +7,7 @@
 
 #include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/evaluation/information.hpp"
+#include "sas_motion/filters/law_aware.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/models/constant_velocity.hpp"
 #include "sas_motion/pipeline/filter_by_name.hpp"
@@ -132,7 +133,7 @@ class ConstantVelocitySystem final : public System {
     readConfig(settings, config_);
     settings.finish();
     for (const auto& name : estimators)
-      if (name != kOracle && !withFilter(name, config_, [](const auto&) {}))
+      if (name != kOracle && name != towfish::kBayesReference && !withFilter(name, config_, [](const auto&) {}))
         campaign.fail("estimators", fmt::format("names '{}', which is no filter", name));
     for (auto& item : campaign.list("laws")) {
       std::string law_name;
@@ -143,6 +144,10 @@ class ConstantVelocitySystem final : public System {
       law.process = NoiseMix::read(item, "process", NoiseUse::Process);
       item.finish();
       laws.push_back(lawInfo(law_name, law.position, law.process));
+      if (law.velocity.name() != law.position.name()) {
+        laws.back().description += ", velocity " + law.velocity.name();
+        laws.back().epsilon = laws.back().K = std::nullopt;
+      }
       noise_.push_back(law);
     }
     if (laws.empty()) campaign.fail("laws", "is missing; list at least one");
@@ -171,7 +176,16 @@ class ConstantVelocitySystem final : public System {
   Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override;
 
  private:
-  Score filtered(const std::string& name, const Law&, const std::vector<Epoch>& epochs, double& seconds) const {
+  /// Laws of the velocity may differ from those of the position in their spells alone; bursts are the sensor's.
+  GaussianSumOptions told(const Law& law) const {
+    auto options = lawAware(law.position, law.process, model_.step);
+    const bool alike = law.velocity.name() == law.position.name();
+    options.mode.common = true;
+    options.mode.rows = alike ? 0b1111 : 0b0111;
+    return options;
+  }
+
+  Score filtered(const std::string& name, const Law& law, const std::vector<Epoch>& epochs, double& seconds) const {
     Score score(skip, model_.step);
     const bool oracle = name == kOracle;
     const auto run = [&](const auto& filter) {
@@ -193,6 +207,8 @@ class ConstantVelocitySystem final : public System {
     };
     if (oracle)
       run(KalmanFilter<kStates>());
+    else if (name == towfish::kBayesReference)
+      run(GaussianSumFilter<kStates>(told(law)));
     else
       withFilter(name, config_, run);
     return score;
@@ -221,7 +237,9 @@ Named<double> ConstantVelocitySystem::bound(std::size_t law, const std::vector<s
         factor(row) = std::isinf(epoch.variance(row)) ? 0 : (row < 3 ? position : velocity).of(epoch.variance(row), epoch.time);
       bound.measurement<kRows>({model_.measurement(State::Zero().head<kRows>(), State::Zero(), epoch.time)}, {factor});
       if (epoch.time <= skip) continue;
-      const Vector<kStates> variance = bound.covariance()->diagonal();
+      const auto P = bound.covariance();
+      if (!P) return {};
+      const Vector<kStates> variance = P->diagonal();
       position_square += variance.head<3>().sum();
       velocity_square += variance.tail<3>().sum();
       ++count;

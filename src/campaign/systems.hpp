@@ -7,7 +7,6 @@
 
 namespace sas_motion {
 
-
 /// The systems of a suite, each read from its campaign. Throw ConfigError.
 std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::string& folder, const towfish::EstimatorFactory& make);
 std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign);

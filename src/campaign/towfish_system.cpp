@@ -50,7 +50,7 @@ void addMeasurement(PosteriorBound<kStates>& bound, const Model& model, const st
       Vector<kRows> factor;
       for (int row = 0; row < kRows; ++row)
         factor(row) = information[static_cast<std::size_t>(z.sensor)].of(labelled.variance[static_cast<std::size_t>(row)],
-                                                                           secondsBetween(Simulator::kStart, labelled.z.stamp));
+                                                                         secondsBetween(Simulator::kStart, labelled.z.stamp));
       factors.push_back(factor);
     }
     bound.measurement<kRows>(linear, factors);
@@ -65,10 +65,9 @@ class TowfishSystem final : public System {
     skip = campaign_.skip;
     estimators = campaign_.estimators;
     for (const auto& estimator : estimators)
-      if (estimator != kOracle && !make_(estimator, campaign_.config))
+      if (estimator != kOracle && estimator != kBayesReference && !make_(estimator, campaign_.config))
         section.fail("estimators", fmt::format("names '{}', which is no estimator", estimator));
-    for (const auto& law : campaign_.laws)
-      laws.push_back(lawInfo(law.name, law.noise.value_or(campaign_.scenario.sensor(Sensor::Position).noise), law.process.value_or(campaign_.scenario.process)));
+    for (const auto& law : campaign_.laws) laws.push_back(infoOf(law));
   }
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
@@ -96,6 +95,13 @@ class TowfishSystem final : public System {
   Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override;
 
  private:
+  LawInfo infoOf(const CampaignLaw& law) const {
+    const Scenario scenario = campaign_.scenarioUnder(law);
+    LawInfo info = lawInfo(law.name, scenario.sensor(Sensor::Position).noise, scenario.process);
+    if (!law.sensors.empty()) info.epsilon = info.K = std::nullopt;  // no point of a sweep
+    return info;
+  }
+
   EstimatorReport reportOf(const std::string& name, const SimulatedRun& run, const Output& output) const {
     const Scores scores = score(campaign_, run, output);
     EstimatorReport report;
@@ -137,7 +143,7 @@ class TowfishSystem final : public System {
       trace.weight_time.push_back(secondsBetween(Simulator::kStart, audit.stamp));
       trace.weight.push_back(audit.weights.minCoeff());
       trace.outlier.push_back(run.outlier(audit));
-      if (audit.S(0, 0) > 0) trace.nis.push_back(audit.nis);
+      trace.nis.push_back(audit.S(0, 0) > 0 ? audit.nis : NAN);
     }
     return trace;
   }
@@ -156,16 +162,19 @@ Named<double> TowfishSystem::bound(std::size_t law, const std::vector<std::uint6
   if (scenario.kind != Scenario::Kind::RandomWalk || process.genie) return {};
   std::vector<SimulatedRun> runs;
   for (const auto seed : seeds) runs.emplace_back(scenario, seed);
+  const auto alike = [](const LabelledMeasurement& a, const LabelledMeasurement& b) { return a.z.stamp == b.z.stamp && a.z.sensor == b.z.sensor; };
+  const auto& front = runs.front().measurements();
   for (const auto& run : runs)
-    if (run.measurements().size() != runs.front().measurements().size()) return {};
+    if (!std::equal(run.measurements().begin(), run.measurements().end(), front.begin(), front.end(), alike)) return {};
   std::array<MeasurementInformation, kSensors> information{MeasurementInformation(scenario.sensors[0].noise), MeasurementInformation(scenario.sensors[1].noise),
-                                                           MeasurementInformation(scenario.sensors[2].noise), MeasurementInformation(scenario.sensors[3].noise)};
+                                                           MeasurementInformation(scenario.sensors[2].noise),
+                                                           MeasurementInformation(scenario.sensors[3].noise)};
   const Model model(scenario.motion);
   const StateVector prior = (StateVector() << 1, 1, 1 / scenario.motion.current_sigma, 1 / scenario.motion.current_sigma, 1, 1).finished();
   PosteriorBound<kStates> bound(prior.cwiseAbs2().asDiagonal());
   std::array<double, kGroups> squares{};
   std::size_t count = 0, next = 0;
-  const auto& stamps = runs.front().measurements();
+  const auto& stamps = front;
   for (std::size_t k = 0; k < runs.front().truth().size(); ++k) {
     const Stamp stamp = Simulator::kStart + static_cast<Stamp>(k) * stampFromSeconds(scenario.step);
     if (k > 0) {

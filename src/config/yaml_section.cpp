@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <iterator>
 
 #include "sas_motion/math/angles.hpp"
 
@@ -29,8 +30,11 @@ YamlSection::YamlSection(const YAML::Node& node, std::string file, std::string p
 }
 
 YamlSection YamlSection::fromFile(const std::string& file) {
-  if (!std::ifstream(file)) throw ConfigError(fmt::format("{}: cannot be read; check the path", file));
-  return {parsed(file, [&] { return YAML::LoadFile(file); }), file, ""};
+  std::ifstream stream(file);
+  if (!stream) throw ConfigError(fmt::format("{}: cannot be read; check the path", file));
+  // Read here and not by yaml-cpp, which leaks its buffer where reading fails.
+  const auto load = [&] { return YAML::Load(std::string(std::istreambuf_iterator<char>(stream), {})); };
+  return {parsed(file, load), file, ""};
 }
 
 YamlSection YamlSection::fromText(const std::string& text, const std::string& name) {

@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "sas_motion/filters/law_aware.hpp"
 #include "sas_motion/io/cpu_time.hpp"
+#include "sas_motion/pipeline/filter_timeline.hpp"
 
 namespace sas_motion::towfish {
 namespace {
@@ -29,6 +32,26 @@ CampaignLaw readLaw(YamlSection& yaml) {
   sensors.finish();
   yaml.finish();
   return law;
+}
+
+/// Updates a second of the fastest sensor.
+double fastestRate(const Scenario& scenario) {
+  double rate = 1 / scenario.duration;
+  for (const auto sensor : kNoisy) rate = std::max(rate, scenario.sensor(sensor).rate);
+  return rate;
+}
+
+/// The law-aware reference: told the position's law for all sensors, and which rows have its spells.
+std::unique_ptr<Estimator> makeBayesReference(const Campaign& campaign, const Scenario& scenario) {
+  const auto& law = scenario.sensor(Sensor::Position).noise;
+  auto options = lawAware(law, scenario.process, 1 / fastestRate(scenario));
+  options.mode.common = true;
+  options.mode.rows = 0;
+  for (const auto sensor : kNoisy)
+    if (scenario.sensor(sensor).noise.name() == law.name())
+      for (int row = 0; row < rowsOf(sensor); ++row) options.mode.rows |= 1U << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));
+  using Filter = GaussianSumFilter<kStates>;
+  return std::make_unique<FilterTimeline<Filter>>([options](const Config&) { return Filter(options); }, campaign.config);
 }
 
 }  // namespace
@@ -74,10 +97,10 @@ Scenario Campaign::scenarioUnder(const CampaignLaw& law) const {
   return changed;
 }
 
-Output estimate(const Campaign& campaign, const Scenario&, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
+Output estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
                 double& seconds) {
   const bool oracle = name == kOracle;
-  const auto estimator = make(oracle ? "kf" : name, campaign.config);
+  const auto estimator = name == kBayesReference ? makeBayesReference(campaign, scenario) : make(oracle ? "kf" : name, campaign.config);
   Output output;
   const double begin = cpuSeconds();
   for (const auto& labelled : run.measurements()) estimator->process(oracle ? toldTheTruth(labelled) : labelled.z, output);

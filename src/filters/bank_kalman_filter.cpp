@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -14,12 +16,12 @@
 namespace sas_motion {
 namespace {
 
-constexpr double kFade = 0.5;        // an epoch: stickiness beyond the longest burst
-constexpr double kPriorCount = 50;   // readings or epochs that the options' probabilities are worth
-constexpr double kMemory = 300;      // readings or epochs after which old ones are forgotten
-constexpr double kSmallestShare = 0.1;  // of a scale's own probability: nothing is ever ruled out
+constexpr double kFade = 0.5;                         // an epoch: stickiness beyond the longest burst
+constexpr double kPriorCount = 50;                    // readings or epochs that the options' probabilities are worth
+constexpr double kMemory = 300;                       // readings or epochs after which old ones are forgotten
+constexpr double kSmallestShare = 0.1;                // of a scale's own probability: nothing is ever ruled out
 constexpr double kFewestJumps = 0.1, kMostJumps = 5;  // of the jump probability
-constexpr double kLeastWeight = 1e-30;  // a hypothesis can always come back
+constexpr double kLeastWeight = 1e-30;                // a hypothesis can always come back
 constexpr int kRowsPerSource = 8;
 
 void require(bool holds, const char* key, double value, const char* must) {
@@ -130,15 +132,16 @@ void BankKalmanFilter<N>::openEpoch(Belief& belief, double time) const {
   if (epochs < 1 - 1e-6) return;
   auto& bank = belief.hypotheses;
   belief.epochs = std::min(belief.epochs + 1, kMemory);
-  belief.jump_probability += (bank[kOldest].weight - belief.jump_probability) / belief.epochs;
-  belief.jump_probability =
-      std::clamp(belief.jump_probability, kFewestJumps * options_.jump_probability, kMostJumps * options_.jump_probability);
+  // what jumped eight openings ago and not since: a little too few; an opening after a pause counts for its epochs
+  belief.jump_probability += (bank[kOldest].weight / epochs - belief.jump_probability) / belief.epochs;
+  belief.jump_probability = std::clamp(belief.jump_probability, kFewestJumps * options_.jump_probability, kMostJumps * options_.jump_probability);
   const double stay = std::pow(1 - belief.jump_probability, epochs);  // a pause of the data may hold several epochs
 
   const auto none = merged(belief, [](int i) { return i == 0 || i == kOldest; });
   const auto all = merged(belief, [](int) { return true; });
   for (std::size_t age = kOldest; age > 1; --age) bank[age] = bank[age - 1];
   bank[0] = none;
+  symmetrize(bank[0].covariance);  // it lives for ever
   bank[1] = all;
   bank[1].covariance += (options_.jump_scale - 1) / epochs * belief.epoch_noise;
   for (std::size_t i = 0; i < bank.size(); ++i) bank[i].weight *= i == 1 ? 1 - stay : stay;
@@ -147,14 +150,14 @@ void BankKalmanFilter<N>::openEpoch(Belief& belief, double time) const {
 }
 
 template <int N>
-int BankKalmanFilter<N>::channel(Belief& belief, int key, double time) const {
+std::size_t BankKalmanFilter<N>::channel(Belief& belief, int key, double time) const {
   for (std::size_t c = 0; c < belief.channels.size(); ++c) {
     auto& learned = belief.channels[c];
     if (learned.key != key && learned.key >= 0) continue;
     if (learned.key < 0) learned = {key, time, kPriorCount, options_.probabilities};
-    return static_cast<int>(c);
+    return c;
   }
-  return static_cast<int>(belief.channels.size()) - 1;  // more channels than places: the last ones share one
+  return belief.channels.size() - 1;  // more channels than places: the last ones share one
 }
 
 template <int N>
@@ -164,7 +167,7 @@ void BankKalmanFilter<N>::judge(Belief& belief, const LinearMeasurement<N, M>& z
   std::array<std::size_t, M> place;
   std::array<double, M> elapsed;
   for (int row = 0; row < M; ++row) {
-    place[row] = static_cast<std::size_t>(channel(belief, z.source * kRowsPerSource + row, z.time));
+    place[row] = channel(belief, z.source * kRowsPerSource + row, z.time);
     Learned& learned = belief.channels[place[row]];
     elapsed[row] = (z.time - learned.time) / options_.epoch;
     learned.time = z.time;
@@ -189,7 +192,7 @@ void BankKalmanFilter<N>::judge(Belief& belief, const LinearMeasurement<N, M>& z
         c.run = c.doubt = 0;
       }
       const Vector<N> PH = h.covariance * H;
-      const double v = H.dot(PH), fade = c.run > options_.burst ? std::pow(kFade, c.run - options_.burst) : 1;
+      const double v = std::max(0.0, H.dot(PH)), fade = c.run > options_.burst ? std::pow(kFade, c.run - options_.burst) : 1;
       const BankReading reading(reach, v, z.R(row, row),
                                 {options_.scales, belief.channels[place[row]].shares, options_.sticky, options_.repeat, c.doubt * shared[row] * fade,
                                  c.residual, std::max(0.0, v - c.variance)});
@@ -249,6 +252,11 @@ Update<BankBelief<N>, M> BankKalmanFilter<N>::update(const Belief& prior, const 
   openEpoch(result.belief, z.time);
   judge(result.belief, z, result.weights);
   summarize(result.belief);
+  if (!result.belief.summary.mean.allFinite() || !result.belief.summary.covariance.allFinite()) {
+    result.belief = prior;
+    result.verdict = Verdict::Invalid;
+    return result;
+  }
   result.verdict = verdictFromWeights(result.weights);
   return result;
 }

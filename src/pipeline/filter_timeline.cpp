@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "sas_motion/filters/bank_kalman_filter.hpp"
 #include "sas_motion/filters/calibrated_filter.hpp"
+#include "sas_motion/filters/gaussian_sum_filter.hpp"
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/reacquiring_filter.hpp"
@@ -118,8 +120,7 @@ typename FilterTimeline<Filter>::Moment FilterTimeline<Filter>::predicted(const 
   Moment to = from;
   to.stamp = stamp;
   if (stamp == from.stamp) return to;
-  const bool known = secondsBetween(from.input_stamp, stamp) <= config_.input_hold;
-  const auto transition = model_.transition(gaussian(from.belief).mean, known ? from.input : Input{}, secondsBetween(from.stamp, stamp));
+  const auto transition = model_.transition(gaussian(from.belief).mean, from.input.at(stamp, config_.input_hold), secondsBetween(from.stamp, stamp));
   to.belief = filter_->predict(from.belief, transition);
   return to;
 }
@@ -129,8 +130,7 @@ void FilterTimeline<Filter>::fuse(const Moment& from, Entry& entry) const {
   const Measurement& z = entry.z;
   entry.after = predicted(from, z.stamp);
   if (z.sensor == Sensor::TurnRate) {
-    entry.after.input.turn_rate = z.value(0);
-    entry.after.input_stamp = z.stamp;
+    entry.after.input.take(z);
     entry.audit = refusal(z, Verdict::Accepted, "");
     return;
   }
@@ -232,6 +232,7 @@ void FilterTimeline<Filter>::forget() {
 }
 
 template class FilterTimeline<BankKalmanFilter<kStates>>;
+template class FilterTimeline<GaussianSumFilter<kStates>>;
 template class FilterTimeline<KalmanFilter<kStates>>;
 template class FilterTimeline<ReacquiringFilter<GatedKalmanFilter<kStates>, kStates>>;
 template class FilterTimeline<ReacquiringFilter<MixtureKalmanFilter<kStates>, kStates>>;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace sas_motion::ros_side {
@@ -31,7 +33,10 @@ void BatchSolver::receive() {
   {
     const std::lock_guard lock(mutex_);
     fresh.swap(taken_);
-    if (std::exchange(anew_, false)) estimator_->reset();
+    if (std::exchange(anew_, false)) {
+      estimator_->reset();
+      publisher_.clear();
+    }
   }
   towfish::Output refused;
   for (const auto& z : fresh) estimator_->process(z, refused);

@@ -121,7 +121,7 @@ std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovariance
   for (int i = 0; i < 3; ++i) {
     if (std::abs(axis(i)) < 1e-6) continue;  // an axis that the sensor may not measure does not matter then
     speed += axis(i) * (i == 0 ? v.x : i == 1 ? v.y : v.z);
-    variance += axis(i) * axis(i) * twist.twist.covariance[static_cast<std::size_t>(7 * i)];
+    variance += axis(i) * axis(i) * twist.twist.covariance[7 * static_cast<std::size_t>(i)];
   }
   z.value << speed, 0;
   z.variance.setConstant(believedVariance(variance, options));

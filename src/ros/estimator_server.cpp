@@ -29,7 +29,8 @@ void readParameter(const ros::NodeHandle& own, const std::string& key, T& value)
 
 }  // namespace
 
-EstimatorServer::EstimatorServer(ros::NodeHandle node, ros::NodeHandle own, const std::vector<std::string>& default_estimators) : node_(node), own_(own) {
+EstimatorServer::EstimatorServer(const ros::NodeHandle& node, const ros::NodeHandle& own, const std::vector<std::string>& default_estimators)
+    : node_(node), own_(own) {
   std::string config;
   bool with_batch = false;
   auto names = default_estimators;
@@ -152,6 +153,7 @@ void EstimatorServer::startAnew() {
   ingest_ = std::move(fresh);
   for (auto& lane : lanes_) {
     lane.estimator->reset();
+    lane.publisher.clear();  // it is of another start, and may be of another datum
     lane.published = 0;
     lane.verdicts.fill(0);
   }

@@ -33,15 +33,17 @@ Reconfigure::Reconfigure(const ros::NodeHandle& own, const towfish::Config& conf
 
 void Reconfigure::onChange(EstimatorsConfig& wanted) {
   try {
-    bool different = take(wanted.robust_kf_loss, wanted.robust_kf_tuning, config_.robust_kf.loss);
-    different = take(wanted.fixed_lag_loss, wanted.fixed_lag_tuning, config_.fixed_lag.loss) || different;
-    different = wanted.gated_kf_probability != config_.gated_kf.probability || different;
-    config_.gated_kf.probability = wanted.gated_kf_probability;
-    if (different) changed_(config_);
+    towfish::Config next = config_;
+    bool different = take(wanted.robust_kf_loss, wanted.robust_kf_tuning, next.robust_kf.loss);
+    different = take(wanted.fixed_lag_loss, wanted.fixed_lag_tuning, next.fixed_lag.loss) || different;
+    different = wanted.gated_kf_probability != next.gated_kf.probability || different;
+    next.gated_kf.probability = wanted.gated_kf_probability;
+    if (different) changed_(config_ = next);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR("dynamic_reconfigure: %s", error.what());
     show(config_.robust_kf.loss, wanted.robust_kf_loss, wanted.robust_kf_tuning);
     show(config_.fixed_lag.loss, wanted.fixed_lag_loss, wanted.fixed_lag_tuning);
+    wanted.gated_kf_probability = config_.gated_kf.probability;
   }
 }
 

@@ -26,8 +26,9 @@ void shift(NoiseSample& sample, double bias) {
 }  // namespace
 
 bool Spells::on(const NoiseLaw& law, double time, double elapsed, double dice) {
-  if (time >= until_ && dice < -std::expm1(-law.rate * elapsed)) until_ = time + law.length;
-  return time < until_;
+  const bool was_on = on_;
+  if (!was_on && dice < -std::expm1(-law.rate * elapsed)) until_ = time + law.length;
+  return on_ = time < until_;
 }
 
 double varyingSigma(const NoiseLaw& law, double time) { return 1 + (law.factor - 1) * 0.5 * (1 - std::cos(2 * kPi * time / law.period)); }

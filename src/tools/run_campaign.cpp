@@ -4,7 +4,9 @@
 // run_campaign SUITE.yaml: the worker of benchmark. Simulates, estimates and scores; prints JSON. See docs/benchmark.md.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
@@ -32,15 +34,21 @@ json orNull(const std::optional<Value>& value) {
 }
 
 json planOf(const Suite& suite) {
-  json plan{{"schema", "sas_motion/plan/1"}, {"suite", suite.name},   {"version", SAS_MOTION_VERSION}, {"config_hash", suite.hash},
-            {"runs", suite.runs},            {"first_seed", suite.first_seed}, {"tasks", suite.tasks()}};
+  json plan{{"schema", "sas_motion/plan/1"},  {"suite", suite.name},   {"version", SAS_MOTION_VERSION}, {"config_hash", suite.hash}, {"runs", suite.runs},
+            {"first_seed", suite.first_seed}, {"tasks", suite.tasks()}};
   for (std::size_t i = 0; i < suite.campaigns.size(); ++i) {
     const System& s = *suite.campaigns[i];
     json laws;
     for (const auto& law : s.laws)
       laws.push_back({{"name", law.name}, {"description", law.description}, {"epsilon", orNull(law.epsilon)}, {"K", orNull(law.K)}});
-    plan["campaigns"].push_back({{"name", s.title}, {"system", s.kind}, {"first_task", suite.firstTask(i)}, {"duration", s.duration}, {"skip", s.skip},
-                                 {"dimension", s.dimension}, {"estimators", s.estimators}, {"laws", laws}});
+    plan["campaigns"].push_back({{"name", s.title},
+                                 {"system", s.kind},
+                                 {"first_task", suite.firstTask(i)},
+                                 {"duration", s.duration},
+                                 {"skip", s.skip},
+                                 {"dimension", s.dimension},
+                                 {"estimators", s.estimators},
+                                 {"laws", laws}});
   }
   return plan;
 }
@@ -58,7 +66,8 @@ json toJson(const EstimatorReport& report) {
 
 std::string lineOf(const Suite& suite, std::size_t index) {
   const auto [campaign, law, seed] = suite.task(index);
-  json line{{"task", index}, {"campaign", campaign->title}, {"law", campaign->laws[law].name}, {"seed", seed}};
+  json line{{"task", index}, {"campaign", campaign->title}, {"law", campaign->laws[law].name},
+            {"seed", seed},  {"config_hash", suite.hash},   {"version", SAS_MOTION_VERSION}};
   for (const auto& report : campaign->run(law, seed)) {
     line["results"][report.estimator] = toJson(report);
     line["cost"][report.estimator] = report.microseconds;
@@ -70,11 +79,12 @@ void printTasks(const Suite& suite, const Options& options) {
   std::size_t first = 0, last = 0;
   if (std::sscanf(options.tasks.c_str(), "%zu:%zu", &first, &last) != 2 || first > last || last > suite.tasks())
     throw std::runtime_error(fmt::format("--tasks: '{}' must be FIRST:LAST with at most {} tasks", options.tasks, suite.tasks()));
-  inOrder(first, last, options.jobs, [&](std::size_t task) { return lineOf(suite, task); },
-          [](const std::string& line) {
-            fmt::print("{}\n", line);
-            std::fflush(stdout);
-          });
+  inOrder(
+      first, last, options.jobs, [&](std::size_t task) { return lineOf(suite, task); },
+      [](const std::string& line) {
+        fmt::print("{}\n", line);
+        std::fflush(stdout);
+      });
 }
 
 json boundsOf(const Suite& suite) {
@@ -105,11 +115,11 @@ json tracesOf(const Suite& suite) {
   for (const auto& campaign : suite.campaigns)
     for (std::size_t law = 0; law < campaign->laws.size(); ++law)
       for (const auto& [name, t] : campaign->trace(law, suite.first_seed))
-        all[campaign->title][campaign->laws[law].name][name] = {{"time", thinned(t.time)},       {"error", thinned(t.error)},
-                                                               {"sigma3", thinned(t.sigma3)},   {"nees", thinned(t.nees)},
-                                                               {"nis", thinned(t.nis)},         {"weight_time", thinned(t.weight_time)},
-                                                               {"weight", thinned(t.weight)},   {"outlier", thinned(t.outlier)},
-                                                               {"nees_degrees", t.nees_degrees}, {"nis_degrees", t.nis_degrees}};
+        all[campaign->title][campaign->laws[law].name][name] = {{"time", thinned(t.time)},        {"error", thinned(t.error)},
+                                                                {"sigma3", thinned(t.sigma3)},    {"nees", thinned(t.nees)},
+                                                                {"nis", thinned(t.nis)},          {"weight_time", thinned(t.weight_time)},
+                                                                {"weight", thinned(t.weight)},    {"outlier", thinned(t.outlier)},
+                                                                {"nees_degrees", t.nees_degrees}, {"nis_degrees", t.nis_degrees}};
   return all;
 }
 

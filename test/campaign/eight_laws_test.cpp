@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The eight laws on the textbook problem: what bank_kf promises, with room for the few seeds of a test.
+#include <numeric>
+
 #include "campaign/suites.hpp"
 
 namespace sas_motion {
@@ -17,7 +19,8 @@ Suite eightLaws(int runs) {
 TEST(EightLaws, TheBankIsNearTheOracleUnderEveryLawWithOneTuning) {
   const auto suite = eightLaws(60);
   const auto runs = testing::runAll(suite);
-  const std::vector<double> most{1.03, 1.10, 1.06, 1.12, 1.25, 1.09, 1.25, 1.10};
+  // the specification's targets with the scatter of 60 seeds: 1.5 %, and more where a single run can be ten times off
+  const std::vector<double> most{1.03, 1.09, 1.05, 1.12, 1.25, 1.09, 1.25, 1.06};
   for (std::size_t law = 0; law < most.size(); ++law) {
     const auto& name = suite.campaigns[0]->laws[law].name;
     const double ratio = testing::rmse(suite, runs, name, "bank_kf") / testing::rmse(suite, runs, name, "oracle_kf");
@@ -38,10 +41,45 @@ TEST(EightLaws, TheBankIsAsSureAsItMayBeAndLocksOutOfNothing) {
     EXPECT_FALSE(bank.diverged);
   }
   for (const auto& [law, values] : nees) {
-    EXPECT_GT(mean(values), 0.78) << law;
-    EXPECT_LT(mean(values), 1.2) << law;
+    EXPECT_GT(mean(values), 0.80) << law;
+    EXPECT_LT(mean(values), 1.15) << law;
   }
-  EXPECT_LE(locked_out, 2) << "of " << runs.size();
+  EXPECT_LE(locked_out, 1) << "of " << runs.size() << "; 1,000 seeds a law are in docs/results.md";
+}
+
+TEST(EightLaws, NobodyBeatsTheBoundAndTheKalmanFilterReachesItOnGaussianNoise) {
+  auto suite = eightLaws(100);
+  suite.campaigns[0]->estimators = {"kf", "bank_kf", "student_t_kf"};
+  const auto runs = testing::runAll(suite);
+  std::vector<std::uint64_t> seeds(100);
+  std::iota(seeds.begin(), seeds.end(), suite.first_seed);
+  for (std::size_t law = 0; law < suite.campaigns[0]->laws.size(); ++law) {
+    const auto& name = suite.campaigns[0]->laws[law].name;
+    const double bound = suite.campaigns[0]->bound(law, seeds).front().second;
+    for (const auto& estimator : suite.campaigns[0]->estimators)
+      EXPECT_GT(testing::rmse(suite, runs, name, estimator), 0.98 * bound) << name << ", " << estimator;
+    if (law == 0) {
+      EXPECT_NEAR(testing::rmse(suite, runs, name, "kf") / bound, 1, 0.02);
+    }
+  }
+}
+
+TEST(EightLaws, WhatKnowsTheLawIsNearTheOracleAndSaysHowWellItKnows) {
+  auto suite = eightLaws(8);
+  suite.campaigns[0]->estimators = {"oracle_kf", "bayes_reference"};
+  const auto runs = testing::runAll(suite);
+  for (const auto& law : suite.campaigns[0]->laws)
+    EXPECT_NEAR(testing::rmse(suite, runs, law.name, "bayes_reference") / testing::rmse(suite, runs, law.name, "oracle_kf"), 1.1, 0.15) << law.name;
+}
+
+TEST(TowfishSystem, TheKalmanFilterReachesTheBoundOnGaussianNoise) {
+  const auto suite = testing::suiteOf(testing::zhuSuite(120, 40, "[kf]", "[{name: clean}]"));
+  const auto runs = testing::runAll(suite);
+  std::vector<std::uint64_t> seeds(10);
+  std::iota(seeds.begin(), seeds.end(), suite.first_seed);
+  const auto bound = suite.campaigns[0]->bound(0, seeds);
+  EXPECT_EQ(bound.front().first, "position");
+  EXPECT_NEAR(testing::rmse(suite, runs, "clean", "kf") / bound.front().second, 1, 0.06);  // 40 runs of two minutes scatter by 2 %
 }
 
 }  // namespace

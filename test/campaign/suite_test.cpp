@@ -78,8 +78,9 @@ TEST(TowfishSystem, TheOracleIsTheKalmanFilterOnCleanDataAndBetterOnBad) {
 }
 
 TEST(TowfishSystem, ALawMayBeOfOneSensorOnly) {
-  const auto suite = suiteOf(zhuSuite(60, 2, "[kf]", "[{name: clean}, {name: none, sensors: {speed: {law: gaussian}}},"
-                                                     " {name: speed, sensors: {speed: {law: contaminated, epsilon: 0.3, K: 30}}}]"));
+  const auto suite = suiteOf(zhuSuite(60, 2, "[kf]",
+                                      "[{name: clean}, {name: none, sensors: {speed: {law: gaussian}}},"
+                                      " {name: speed, sensors: {speed: {law: contaminated, epsilon: 0.3, K: 30}}}]"));
   const auto runs = runAll(suite);
   EXPECT_EQ(rmse(suite, runs, "clean", "kf"), rmse(suite, runs, "none", "kf"));
   EXPECT_GT(rmse(suite, runs, "speed", "kf"), 1.05 * rmse(suite, runs, "clean", "kf"));
@@ -88,7 +89,8 @@ TEST(TowfishSystem, ALawMayBeOfOneSensorOnly) {
 TEST(OrderedTasks, ComeInOrderWhateverTheThreads) {
   for (const int jobs : {1, 2, 5}) {
     std::vector<std::size_t> seen;
-    inOrder(3, 200, jobs, [](std::size_t task) { return task; }, [&](std::size_t task) { seen.push_back(task); });
+    inOrder(
+        3, 200, jobs, [](std::size_t task) { return task; }, [&](std::size_t task) { seen.push_back(task); });
     ASSERT_EQ(seen.size(), 197u);
     for (std::size_t i = 0; i < seen.size(); ++i) ASSERT_EQ(seen[i], i + 3);
   }
@@ -97,7 +99,9 @@ TEST(OrderedTasks, ComeInOrderWhateverTheThreads) {
 TEST(OrderedTasks, AFailureReachesTheCaller) {
   const auto fails = [](std::size_t task) -> int { return task == 20 ? throw std::runtime_error("no estimator") : 0; };
   EXPECT_THROW(inOrder(0, 100, 2, fails, [](int) {}), std::runtime_error);
-  EXPECT_THROW(inOrder(0, 100, 2, [](std::size_t) { return 0; }, [](int) { throw std::runtime_error("no disk"); }), std::runtime_error);
+  EXPECT_THROW(inOrder(
+                   0, 100, 2, [](std::size_t) { return 0; }, [](int) { throw std::runtime_error("no disk"); }),
+               std::runtime_error);
 }
 
 TEST(LockOut, IsAnErrorBeyondFiveSigmaForMoreThanFiveEpochs) {

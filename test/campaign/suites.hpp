@@ -34,12 +34,13 @@ inline std::string zhuSuite(double duration, int runs, const std::string& estima
 inline std::vector<std::vector<EstimatorReport>> runAll(const Suite& suite) {
   std::cout << "seeds " << suite.first_seed << " to " << suite.first_seed + static_cast<std::uint64_t>(suite.runs) - 1 << "\n";
   std::vector<std::vector<EstimatorReport>> all;
-  inOrder(0, suite.tasks(), 2,
-          [&](std::size_t index) {
-            const auto task = suite.task(index);
-            return task.campaign->run(task.law, task.seed);
-          },
-          [&](const std::vector<EstimatorReport>& reports) { all.push_back(reports); });
+  inOrder(
+      0, suite.tasks(), 2,
+      [&](std::size_t index) {
+        const auto task = suite.task(index);
+        return task.campaign->run(task.law, task.seed);
+      },
+      [&](const std::vector<EstimatorReport>& reports) { all.push_back(reports); });
   return all;
 }
 

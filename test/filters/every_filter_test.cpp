@@ -8,6 +8,7 @@
 #include "sas_motion/filters/bank_kalman_filter.hpp"
 #include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
+#include "sas_motion/filters/gaussian_sum_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
@@ -34,6 +35,15 @@ struct Gated : GatedKalmanFilter<6> {
 };
 struct Mixture : MixtureKalmanFilter<6> {
   Mixture() : MixtureKalmanFilter(Options{}) {}
+};
+struct Sum : GaussianSumFilter<6> {
+  Sum() : GaussianSumFilter(options()) {}
+  static GaussianSumOptions options() {
+    GaussianSumOptions options;
+    options.measurement = {{1, 0.9, 0}, {100, 0.1, 0}};
+    options.process = {{1, 0.95, 0}, {100, 0.05, 0}};
+    return options;
+  }
 };
 struct StudentT : StudentTKalmanFilter<6> {
   StudentT() : StudentTKalmanFilter(Options{}) {}
@@ -73,7 +83,7 @@ class EveryFilter : public ::testing::Test {
   }
 };
 
-using Filters = ::testing::Types<Kf, Bank, Gated, Mixture, StudentT, Huber, Tukey, HuberBoth, CalibratedHuber, CalibratedTukey, CalibratedStudentT>;
+using Filters = ::testing::Types<Kf, Bank, Gated, Mixture, StudentT, Huber, Tukey, HuberBoth, CalibratedHuber, CalibratedTukey, CalibratedStudentT, Sum>;
 TYPED_TEST_SUITE(EveryFilter, Filters);
 
 TYPED_TEST(EveryFilter, RefusesWhatIsNoMeasurementAndStaysAtThePrior) {

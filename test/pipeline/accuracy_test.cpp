@@ -4,8 +4,8 @@
 // Monte Carlo on the paper's scenario: consistency on clean data, and what robustness is worth on contaminated data.
 #include <cmath>
 
-#include "pipeline/feeding.hpp"
 #include "campaign/suites.hpp"
+#include "pipeline/feeding.hpp"
 
 namespace sas_motion::towfish {
 namespace {
@@ -65,9 +65,9 @@ TEST(Accuracy, InnovationsOfTheKalmanFilterAreWhiteEnoughForTheirBand) {
 }
 
 TEST(Accuracy, RobustnessCostsLittleAndGainsMuch) {
-  const auto suite = sas_motion::testing::suiteOf(sas_motion::testing::zhuSuite(
-      150, 10, "[kf, oracle_kf, robust_kf, mixture_kf, bank_kf, student_t_kf]",
-      "[{name: clean}, {name: '0.1, 10', noise: {law: contaminated, epsilon: 0.1, K: 10}}, {name: '0.2, 20', noise: {law: contaminated, epsilon: 0.2, K: 20}}]"));
+  const auto suite = sas_motion::testing::suiteOf(sas_motion::testing::zhuSuite(150, 10, "[kf, oracle_kf, robust_kf, mixture_kf, bank_kf, student_t_kf]",
+                                                                                "[{name: clean}, {name: '0.1, 10', noise: {law: contaminated, epsilon: 0.1, K: "
+                                                                                "10}}, {name: '0.2, 20', noise: {law: contaminated, epsilon: 0.2, K: 20}}]"));
   const auto runs = sas_motion::testing::runAll(suite);
   for (const auto& run : runs)
     for (const auto& report : run) EXPECT_FALSE(report.diverged);

@@ -10,7 +10,7 @@
 namespace sas_motion::testing {
 
 inline const std::vector<std::string>& filterNames() {
-  static const std::vector<std::string> names{"kf", "gated_kf", "robust_kf", "student_t_kf", "mckf", "mixture_kf", "robust_kf_tukey"};
+  static const std::vector<std::string> names{"kf", "gated_kf", "robust_kf", "student_t_kf", "mckf", "mixture_kf", "bank_kf", "robust_kf_tukey"};
   return names;
 }
 

@@ -69,7 +69,8 @@ def run(plan, task):
     weather = random.Random(f'{campaign["name"]} {seed}').gauss(0, 0.1)  # what all estimators of a run share
     results = {name: score(campaign, law, seed, name, weather) for name in campaign['estimators']}
     cost = {name: COST.get(name, 1.1) * (1 + 0.1 * random.random()) for name in campaign['estimators']}
-    return {'task': task, 'campaign': campaign['name'], 'law': law['name'], 'seed': seed, 'results': results, 'cost': cost}
+    return {'task': task, 'campaign': campaign['name'], 'law': law['name'], 'seed': seed, 'config_hash': plan['config_hash'], 'version': plan['version'],
+            'results': results, 'cost': cost}
 
 
 def score(campaign, law, seed, name, weather):

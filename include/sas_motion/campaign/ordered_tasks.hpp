@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace sas_motion {
@@ -48,7 +49,13 @@ void inOrder(std::size_t first, std::size_t last, int jobs, Work&& work, Use&& u
   };
   std::vector<std::thread> threads;
   threads.reserve(static_cast<std::size_t>(jobs));
-  for (int i = 0; i < jobs; ++i) threads.emplace_back(loop);
+  try {
+    for (int i = 0; i < jobs; ++i) threads.emplace_back(loop);
+  } catch (...) {  // a thread that cannot start ends those that did
+    const std::lock_guard<std::mutex> lock(mutex);
+    failure = std::current_exception();
+    moved.notify_all();
+  }
   for (auto& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
 }

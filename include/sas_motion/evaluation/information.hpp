@@ -12,6 +12,9 @@ namespace sas_motion {
 /// (burst, step, ramp, frozen, correlated, varying) gets a genie: it says which readings are bad, and they count nothing, or what the
 /// correlated part and the present sigma are. The bound is then lower than what can be reached. Missing readings count nothing either, but
 /// that is no secret.
+///
+/// What a genie says differs from run to run: bound each run on its own and average the covariances. Averaging the information of all runs
+/// in each step gives a bound too, but a lower one (by 13 % where one second in twenty has ten times the process noise).
 class MeasurementInformation {
  public:
   /// Throws std::invalid_argument for two multipath laws in one list.

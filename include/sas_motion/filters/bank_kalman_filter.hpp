@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <tuple>
 
 #include "sas_motion/filters/kalman_filter.hpp"
 
@@ -66,8 +67,8 @@ HypothesisWeights hypothesisWeights(const BankBelief<N>& belief) {
 /// Under each hypothesis a reading's mixture is collapsed in closed form: narrow scales inform, wide ones only explain it away. Outliers of
 /// one sensor come together and stay: where another row of it was just doubted too (or it has one row), the next reading is doubted sooner,
 /// and expected to be wrong by as much, for up to `burst` epochs. Where readings of a row are doubted that agree with each other, and its
-/// sister rows do not share the doubt, the prediction is what is wrong: after `patience` epochs a hypothesis is opened that reaches them.
-/// How often jumps and outliers come is learned, starting from the options. R is diagonal.
+/// sister rows do not share the doubt (or have for longer than `burst`), the prediction is what is wrong: after `patience` epochs a hypothesis is opened that
+/// reaches them. How often jumps and outliers come is learned, starting from the options. R is diagonal.
 template <int N>
 class BankKalmanFilter {
  public:
@@ -82,7 +83,7 @@ class BankKalmanFilter {
     double sticky = 0.4;                                              ///< probability that an outlier follows an outlier
     double repeat = 0.4;                                              ///< and is wrong by as much
     double burst = 11;                                                ///< that long at most [epochs]
-    double patience = 2.5;                                            ///< with agreeing readings of a single row [epochs]
+    double patience = 2.5;                                            ///< with agreeing readings of a row whose sisters share no doubt [epochs]
   };
 
   /// Throws std::invalid_argument where an option is out of its range.
@@ -96,7 +97,7 @@ class BankKalmanFilter {
  private:
   void start(Belief& belief) const;
   void openEpoch(Belief& belief, double time) const;
-  int channel(Belief& belief, int key, double time) const;
+  std::size_t channel(Belief& belief, int key, double time) const;
   template <int M>
   void judge(Belief& belief, const LinearMeasurement<N, M>& z, Vector<M>& weights) const;
 

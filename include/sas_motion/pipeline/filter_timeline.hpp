@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "sas_motion/models/held_input.hpp"
 #include "sas_motion/pipeline/clock_guard.hpp"
 
 namespace sas_motion::towfish {
@@ -32,8 +33,7 @@ class FilterTimeline final : public Estimator {
   struct Moment {
     Stamp stamp = 0;
     typename Filter::Belief belief;
-    Input input;
-    Stamp input_stamp = 0;
+    HeldInput input;
   };
   struct Entry {
     Measurement z;

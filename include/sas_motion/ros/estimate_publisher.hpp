@@ -23,6 +23,11 @@ class EstimatePublisher {
   void queue(towfish::Output& output);
   /// Of the queue, up to `most` estimates on NAME/settled and NAME/settled_current, and as many audits on NAME/update.
   void publishSettled(std::size_t most, const Settings& settings);
+  /// Forgets what is queued.
+  void clear() {
+    estimates_.clear();
+    audits_.clear();
+  }
   bool nothingQueued() const { return estimates_.empty() && audits_.empty(); }
 
  private:

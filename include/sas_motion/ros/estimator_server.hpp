@@ -33,7 +33,7 @@ namespace sas_motion::ros_side {
 class EstimatorServer {
  public:
   /// Throws ConfigError or std::invalid_argument where a parameter is wrong.
-  EstimatorServer(ros::NodeHandle node, ros::NodeHandle own, const std::vector<std::string>& default_estimators);
+  EstimatorServer(const ros::NodeHandle& node, const ros::NodeHandle& own, const std::vector<std::string>& default_estimators);
 
  private:
   struct Lane {

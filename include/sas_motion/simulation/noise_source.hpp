@@ -22,7 +22,7 @@ struct NoiseSample {
 
 constexpr double kSaysNothing = 1e6;  ///< what an oracle is told of a reading without information: its variance over the good one
 
-/// Spells that begin now and then, `rate` a second, and last `length` seconds.
+/// Spells that begin now and then, `rate` a second, and last `length` seconds; they do not touch.
 class Spells {
  public:
   /// Whether one is on. `dice` is uniform and `elapsed` the time since the last call [s].
@@ -30,6 +30,7 @@ class Spells {
 
  private:
   double until_ = -1;
+  bool on_ = false;
 };
 
 /// Draws one sensor channel's noise over time; calls must have rising times.

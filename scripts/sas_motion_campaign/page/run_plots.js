@@ -21,7 +21,7 @@ function consistencyFigure(view) {
   const kinds = ['nees', 'nis'].filter(kind => has(view, kind));
   const rows = kinds.map(kind => {
     const y = trace[kind];
-    const x = y.length === trace.time.length ? trace.time : y.map((_, i) => i * last(trace.time) / Math.max(1, y.length - 1));
+    const x = [trace.time, trace.weight_time].find(t => t && t.length === y.length) || y.map((_, i) => i * last(trace.time) / Math.max(1, y.length - 1));
     const top = Math.max(30, ...finiteOnly(y));
     const points = {name: view.estimator, x, y, mode: 'markers', marker: {color: look(view, view.estimator).color, size: 4, opacity: 0.6}, hovertemplate: '%{x:.1f} s: %{y:.3g}'};
     return [kind.toUpperCase(), [points], {type: 'log', range: [-2, Math.log10(top) + 0.3], tickvals: [0.01, 1, 100, 1e4, 1e6], ticktext: ['0.01', '1', '100', '10⁴', '10⁶'], uirevision: view.key}];

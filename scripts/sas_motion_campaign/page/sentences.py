@@ -14,7 +14,7 @@ TRUSTED = (0.8, 1.25)  # NEES over its degrees within which the stated sigma is 
 def sentences(campaign, costs):
     """Returns the sentences on one campaign, the chief one first."""
     found = [winner(campaign), runner_up(campaign), beside_kf(campaign), bound(campaign), below_bound(campaign), consistency(campaign),
-             failures(campaign, 'diverged', 'Diverged, and only counted'), failures(campaign, 'locked_out', 'Locked out of a sensor at the end'),
+             failures(campaign, 'diverged', 'Diverged, and only counted'), failures(campaign, 'locked_out', 'Locked out: sure of the wrong place for more than five epochs'),
              cost(campaign, costs)]
     return [sentence for sentence in found if sentence]
 

@@ -44,9 +44,9 @@ def failures(campaign, name):
         if any(tree['diverged'] or tree['locked_out'] for tree in trees):
             rows.append([escape(estimator)] + [lost(tree) for tree in trees])
     if not rows:
-        return '<p class="note">No run diverged and none ended locked out.</p>'
+        return '<p class="note">No run diverged and none locked out.</p>'
     caption = ('Failed runs, of all: diverged (error over 50 times the clean median, or not finite; left out of every mean) '
-               'and locked out (refusing a good sensor at the end).')
+               'and locked out (a position wrong by more than five of its own standard deviations for more than five epochs).')
     return table(caption, ['estimator'] + [escape(law) for law in campaign['laws']], rows, f'{name}-failures')
 
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "sas_motion/models/held_input.hpp"
 #include "sas_motion/models/towfish_start.hpp"
 #include "sas_motion/pipeline/smoother_recorder.hpp"
 #include "sas_motion/smoothers/factor_graph/towfish_factors.hpp"
@@ -64,7 +65,7 @@ struct FixedLagSmoother::Window {
   void add(const Measurement& z) {
     if (z.stamp > nodes.back().stamp) {
       const double dt = secondsBetween(nodes.back().stamp, z.stamp);
-      const Input known = secondsBetween(input_stamp, z.stamp) <= config.input_hold ? input : Input{};
+      const Input known = input.at(z.stamp, config.input_hold);
       const auto transition = model.transition(belief.mean, known, dt);
       belief = filter.predict(belief, transition);
       const Key from = nodes.back().key;
@@ -72,8 +73,7 @@ struct FixedLagSmoother::Window {
       factors.emplace_shared<MotionFactor>(from, nodes.back().key, model, known, dt, transition.Q);
     }
     if (z.sensor == Sensor::TurnRate) {
-      input.turn_rate = z.value(0);
-      input_stamp = z.stamp;
+      input.take(z);
       return;
     }
     addRows(factors, nodes.back().key, model, z, nodes.back().loss);
@@ -105,8 +105,8 @@ struct FixedLagSmoother::Window {
   gtsam::FixedLagSmoother::KeyTimestampMap timestamps;
   std::deque<Node> nodes;  // not yet put out, newest last
   Gaussian<kStates> belief;
-  Input input;
-  Stamp input_stamp = 0, origin = 0;
+  HeldInput input;
+  Stamp origin = 0;
   Stamp solved = 0;
   Key next_key = 0;
 };
@@ -198,7 +198,6 @@ void FixedLagSmoother::rebuild(Output& output) {
     for (const auto& z : node.measurements) output.audits.push_back(refusal(z, Verdict::Invalid, "the solver failed and was rebuilt"));
   auto fresh = std::make_unique<Window>(config_);
   fresh->input = window_->input;
-  fresh->input_stamp = window_->input_stamp;
   fresh->start(window_->belief, window_->nodes.back().stamp);
   fresh->nodes.back().put_out = window_->nodes.back().put_out;
   window_ = std::move(fresh);
@@ -256,7 +255,6 @@ const char* FixedLagSmoother::setState(const Estimate& state, Output& output) {
     output.audits.push_back(refusal(waiting_.front(), Verdict::Stale, "before the state that was set"));
   auto fresh = std::make_unique<Window>(config_);
   fresh->input = window_->input;
-  fresh->input_stamp = window_->input_stamp;
   fresh->start(state.belief, state.stamp);
   fresh->nodes.back().put_out = true;  // the answer there is settled, or the caller's own
   window_ = std::move(fresh);

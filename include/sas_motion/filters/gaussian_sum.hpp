@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "sas_motion/filters/linearized.hpp"
+#include "sas_motion/math/gaussian.hpp"
+
+namespace sas_motion {
+
+/// One history of what was bad and what was not, and what follows from it.
+template <int N>
+struct Hypothesis {
+  Vector<N> deviation = Vector<N>::Zero();  ///< from the summary's mean: a small vector, so that wrapped states add up
+  Matrix<N> covariance = Matrix<N>::Identity();
+  double log_weight = 0;
+  std::uint32_t biased = 0;  ///< rows that are in their bias mode, a bit each
+  std::size_t scale = 0;     ///< of the process noise in the present epoch
+};
+
+/// A belief that is a sum of Gaussians [Sorenson1971], with its mean and covariance.
+template <int N>
+struct GaussianSum {
+  static constexpr int kRows = 4;  ///< of a source
+  static constexpr std::size_t kChannels = kRows * kMaxSources;
+
+  Gaussian<N> summary;
+  std::vector<Hypothesis<N>> hypotheses{};    ///< none: the summary alone
+  bool epoch_over = true;                     ///< the next prediction begins an epoch of the process noise
+  double epoch_end = NAN;                     ///< [s]
+  std::array<double, kChannels> mode_time{};  ///< when a channel's mode was last asked for [s]; 0 for never
+
+  /// Weights relative to their sum, which they then have as logarithms; weights beyond reach are zero.
+  std::vector<double> normalize();
+  /// Takes mean and covariance from the hypotheses, and their deviations from this mean.
+  void summarize();
+  /// Merges hypotheses that are closer than `merge` to a heavier one, and keeps the `count` heaviest [Salmond1990].
+  void reduce(std::size_t count, double merge);
+};
+
+template <int N>
+const Gaussian<N>& gaussian(const GaussianSum<N>& belief) {
+  return belief.summary;
+}
+
+}  // namespace sas_motion

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "sas_motion/filters/gaussian_sum.hpp"
+#include "sas_motion/filters/update.hpp"
+
+namespace sas_motion {
+
+/// One Gaussian of a noise law, in units of the good standard deviation.
+struct NoiseTerm {
+  double variance = 1;
+  double probability = 1;  ///< taken relative to the sum of all terms' [-]
+  double mean = 0;
+};
+
+/// Spells in which a row is biased: they begin `rate` times a second and last `length` seconds on average.
+struct BiasMode {
+  double rate = 0;                                                 ///< 0: there are none [1/s]
+  double length = 1;                                               ///< [s]
+  std::optional<double> bias{};                                    ///< in standard deviations; unknown: the row then says nothing [-]
+  bool common = false;                                             ///< all rows at once, or each on its own
+  std::uint32_t rows = std::numeric_limits<std::uint32_t>::max();  ///< which have spells: bit 4 source + row
+};
+
+/// What the noise is like, and how much of its history to follow.
+struct GaussianSumOptions {
+  std::vector<NoiseTerm> measurement = std::vector<NoiseTerm>(1);  ///< of each row
+  std::vector<NoiseTerm> process = std::vector<NoiseTerm>(1);      ///< variances over Q, of all states together; without means
+  double epoch = 0;                                                ///< for which a process term holds; 0: from one update to the next prediction's [s]
+  double persistence = 0;                                          ///< probability that the next epoch keeps the term instead of drawing anew [-]
+  BiasMode mode;
+  std::size_t hypotheses = 48;  ///< kept after an update
+  std::size_t branches = 160;   ///< followed inside an update
+  double merge = 0.1;           ///< distance below which two hypotheses become one [-]
+};
+
+/// The Bayes filter of known, non-Gaussian noise as far as it can be computed: a reference of what the best causal estimator reaches.
+///
+/// Every Gaussian of every noise law makes a branch: a Kalman filter that assumes it. The heaviest are kept, near ones merged
+/// [Sorenson1971]. The scale of the process noise branches at the first prediction of an epoch; an epoch ends with the first update at or
+/// after a multiple of its length. Rows are fused one by one, R is diagonal. With one term each this is the Kalman filter.
+template <int N>
+class GaussianSumFilter {
+ public:
+  using Belief = GaussianSum<N>;
+
+  /// Throws std::invalid_argument where an option is out of its range.
+  explicit GaussianSumFilter(const GaussianSumOptions& options);
+
+  Belief predict(const Belief& belief, const Transition<N>& transition) const;
+
+  template <int M>
+  Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
+
+ private:
+  struct Row;
+  double fuse(Belief& belief, const Row& row) const;
+  std::array<double, 2> modeSwitch(Belief& belief, const Row& row) const;
+
+  GaussianSumOptions options_;
+};
+
+}  // namespace sas_motion
