@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kPriorCount = 20;     // readings that the assumption of good ones is worth
 constexpr double kMemory = 300;        // readings after which old ones are forgotten
+constexpr double kLargest = 1;         // variance of a prediction over R
 constexpr double kLeastSlope = 1e-12;  // a negative one, of a loss that redescends, counts as none
 
 /// Takes a reading into a row's averages. `t` is the variance of its prediction over R, as the filter has it.
@@ -28,11 +29,15 @@ void learn(LearnedInfluence& row, const Influence& influence, double t) {
   average(row.gain, gain * gain);
 }
 
-/// The noise that a row's influence lets through, over R and t^2 / (1 + t)^2. `s` is the variance of the prediction, calibrated.
+/// The noise that a Kalman filter's gain would have to let through, over R, to do what the row's influence does. `s` is as `t`, calibrated.
+/// After an outage t is large. The averages, of readings at a smaller one, are then taken at the largest that they can stand for.
 double noiseThrough(const LearnedInfluence& row, double t, double s) {
-  const double good = (1 + s) / (1 + t);  // square of the influence of good readings, had it no bound
-  const double square = std::min(row.believed, good) + row.clipped;  // readings that are believed do not speak against R
-  return std::max(0.0, (1 + t) * std::max(square, good * row.gain * row.gain) - s * row.gain);  // nothing beats good readings
+  if (t > kLargest) {
+    s *= kLargest / t;
+    t = kLargest;
+  }
+  const double square = std::min(row.believed, (1 + s) / (1 + t)) + row.clipped;  // readings that are believed do not speak against R
+  return std::max(row.gain * row.gain, (1 + t) * square - s * row.gain);          // and none is better than a good one
 }
 
 }  // namespace

@@ -131,8 +131,7 @@ TEST(CalibratedFilter, WhereNothingIsClippedItIsTheKalmanFilterHoweverNoisyTheRe
         ASSERT_LT(relativeDifference(found[k].covariance, kalman[k].covariance), 1e-6) << what << ", epoch " << k;
       }
     };
-    for (const auto& name : lossNames())
-      expectKalman(CalibratedFilter<Robust, 6>(Robust(robust(Loss(lossFromName(name), name == "l2" ? 1 : 1e9)))), name);
+    for (const auto& name : lossNames()) expectKalman(CalibratedFilter<Robust, 6>(Robust(robust(Loss(lossFromName(name), name == "l2" ? 1 : 1e9)))), name);
     expectKalman(CalibratedFilter<StudentT, 6>(StudentT({1e9, 30, 1e-9, true})), "student_t");
   }
 }
