@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
@@ -43,11 +44,11 @@ LinearMeasurement<kStates, 4> reading(int k) {
 template <class Filter>
 void ours(benchmark::State& state, const Filter& filter) {
   const Model model{MotionParameters{}};
-  auto belief = start();
+  typename Filter::Belief belief{start()};
   int k = 0;
   for (auto unused : state) {
     (void)unused;
-    belief = filter.predict(belief, model.transition(belief.mean, Input{}, kDt));
+    belief = filter.predict(belief, model.transition(gaussian(belief).mean, Input{}, kDt));
     const auto update = filter.update(belief, reading(++k));
     belief = update.belief;
     benchmark::DoNotOptimize(belief);
@@ -115,12 +116,16 @@ RobustKalmanFilter<kStates>::Options onePass() {
   return options;
 }
 
+template <class Filter>
+using Calibrated = CalibratedFilter<Filter, kStates>;
+
 BENCHMARK(bareEigen)->Name("bare_eigen");
 BENCHMARK_CAPTURE(ours, kf, KalmanFilter<kStates>())->Name("kf");
 BENCHMARK_CAPTURE(ours, gated_kf, GatedKalmanFilter<kStates>({}))->Name("gated_kf");
-BENCHMARK_CAPTURE(ours, robust_kf, RobustKalmanFilter<kStates>({}))->Name("robust_kf");
+BENCHMARK_CAPTURE(ours, robust_kf, Calibrated<RobustKalmanFilter<kStates>>(RobustKalmanFilter<kStates>({})))->Name("robust_kf");
+BENCHMARK_CAPTURE(ours, robust_kf_not_calibrated, RobustKalmanFilter<kStates>({}))->Name("robust_kf_not_calibrated");
 BENCHMARK_CAPTURE(ours, robust_kf_one_pass, RobustKalmanFilter<kStates>(onePass()))->Name("robust_kf_one_pass");
-BENCHMARK_CAPTURE(ours, student_t_kf, StudentTKalmanFilter<kStates>({}))->Name("student_t_kf");
+BENCHMARK_CAPTURE(ours, student_t_kf, Calibrated<StudentTKalmanFilter<kStates>>(StudentTKalmanFilter<kStates>({})))->Name("student_t_kf");
 BENCHMARK_CAPTURE(ours, mixture_kf, MixtureKalmanFilter<kStates>({}))->Name("mixture_kf");
 
 }  // namespace

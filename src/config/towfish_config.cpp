@@ -53,6 +53,7 @@ void readRobust(YamlSection yaml, RobustKalmanFilter<kStates>::Options& options)
   yaml.integer("max_iterations", options.max_iterations, 1, 1000);
   yaml.number("tolerance", options.tolerance, {kTiny, 1});
   yaml.boolean("robustify_process", options.robustify_process);
+  yaml.boolean("calibrate", options.calibrate);
   yaml.finish();
 }
 
@@ -108,6 +109,7 @@ void readEstimators(YamlSection yaml, Config& config) {
   student.number("degrees_of_freedom", config.student_t_kf.degrees_of_freedom, {kTiny, 1e9});
   student.integer("max_iterations", config.student_t_kf.max_iterations, 1, 1000);
   student.number("tolerance", config.student_t_kf.tolerance, {kTiny, 1});
+  student.boolean("calibrate", config.student_t_kf.calibrate);
   student.finish();
   auto gated = yaml.section("gated_kf");
   gated.number("probability", config.gated_kf.probability, {0.5, 0.999999});

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "instantiate.hpp"
@@ -54,6 +55,13 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
   result.weights = result.weights.cwiseMin(1.0);  // lambda reaches (nu + 1) / nu; a report's weight ends at 1
   result.verdict = verdictFromWeights(result.weights);
   return result;
+}
+
+template <int N>
+Influence StudentTKalmanFilter<N>::influence(double residual, double variance) const {
+  const double nu = options_.degrees_of_freedom, scale = nu + std::max(0.0, variance), spread = scale + residual * residual;
+  const double lambda = (nu + 1) / spread;
+  return {lambda * residual, lambda * (scale - residual * residual) / spread, std::min(1.0, lambda)};
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(StudentTKalmanFilter)

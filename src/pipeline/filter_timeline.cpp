@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sas_motion/filters/bank_kalman_filter.hpp"
+#include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/gaussian_sum_filter.hpp"
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
@@ -235,7 +236,7 @@ template class FilterTimeline<GaussianSumFilter<kStates>>;
 template class FilterTimeline<KalmanFilter<kStates>>;
 template class FilterTimeline<ReacquiringFilter<GatedKalmanFilter<kStates>, kStates>>;
 template class FilterTimeline<ReacquiringFilter<MixtureKalmanFilter<kStates>, kStates>>;
-template class FilterTimeline<ReacquiringFilter<RobustKalmanFilter<kStates>, kStates>>;
-template class FilterTimeline<ReacquiringFilter<StudentTKalmanFilter<kStates>, kStates>>;
+template class FilterTimeline<ReacquiringFilter<CalibratedFilter<RobustKalmanFilter<kStates>, kStates>, kStates>>;
+template class FilterTimeline<ReacquiringFilter<CalibratedFilter<StudentTKalmanFilter<kStates>, kStates>, kStates>>;
 
 }  // namespace sas_motion::towfish

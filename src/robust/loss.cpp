@@ -45,6 +45,21 @@ double Loss::weight(double residual) const {
   return 1;
 }
 
+double Loss::slope(double residual) const {
+  const double c = tuning_, r = std::abs(residual), r2 = r * r, u = r2 / (c * c), w = weight(r);
+  switch (kind_) {
+    case LossKind::L2: return 1;
+    case LossKind::Huber: return r <= c ? 1 : 0;
+    case LossKind::PseudoHuber: return w * w * w;
+    case LossKind::Cauchy: return (1 - u) * w * w;
+    case LossKind::Tukey: return r <= c ? (1 - u) * (1 - 5 * u) : 0;
+    case LossKind::GemanMcClure: return (1 - 3 * u) / (1 + u) * w;
+    case LossKind::Welsch: return (1 - 2 * u) * w;
+    case LossKind::Dcs: return r2 <= c ? 1 : (c - 3 * r2) / (c + r2) * w;
+  }
+  return 1;
+}
+
 double Loss::defaultTuning(LossKind kind) {
   switch (kind) {
     case LossKind::L2: return 1;

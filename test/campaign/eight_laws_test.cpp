@@ -82,5 +82,22 @@ TEST(TowfishSystem, TheKalmanFilterReachesTheBoundOnGaussianNoise) {
   EXPECT_NEAR(testing::rmse(suite, runs, "clean", "kf") / bound.front().second, 1, 0.06);  // 40 runs of two minutes scatter by 2 %
 }
 
+TEST(EightLaws, RobustFiltersSayHowLargeTheirErrorsAreWhateverTheReadings) {
+  auto suite = eightLaws(20);
+  suite.campaigns[0]->estimators = {"robust_kf", "robust_kf_cauchy", "student_t_kf"};
+  const std::size_t laws = 5;  // the others are of the process, or biased
+  for (std::size_t law = 0; law < laws; ++law) {
+    std::vector<std::vector<double>> nees(3);
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const auto reports = suite.campaigns[0]->run(law, seed);
+      for (std::size_t i = 0; i < reports.size(); ++i) nees[i].push_back(reports[i].nees.front().second);
+    }
+    for (std::size_t i = 0; i < nees.size(); ++i) {
+      EXPECT_GT(mean(nees[i]), 0.85) << suite.campaigns[0]->laws[law].name << ", " << suite.campaigns[0]->estimators[i];
+      EXPECT_LT(mean(nees[i]), 1.16) << suite.campaigns[0]->laws[law].name << ", " << suite.campaigns[0]->estimators[i];
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sas_motion

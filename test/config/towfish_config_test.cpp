@@ -37,7 +37,7 @@ TEST(TowfishConfig, NothingGivenMeansTheDefaults) {
 TEST(TowfishConfig, ReadsWhatIsGivenInSiAndDegrees) {
   const Config config = read(R"({model: {heading_noise_deg: 0.25, speed_noise: 0.1},
     sensors: {heading: {sigma_deg: 2, time_offset: -0.1, override_message: true}, speed: {enabled: false}},
-    lag: 8, start: {window: 6}, estimators: {robust_kf: {loss: tukey, max_iterations: 20, robustify_process: true},
+    lag: 8, start: {window: 6}, estimators: {robust_kf: {loss: tukey, max_iterations: 20, robustify_process: true, calibrate: false},
     rts: {loss: cauchy, tuning: 3}, mckf: {bandwidth: 4}, mixture_kf: {scales: [1, 4, 9, 16]}}})");
   EXPECT_NEAR(config.model.heading_noise, 0.25 * kRadPerDeg, 1e-15);
   EXPECT_NEAR(config.sensor(Sensor::Heading).sigma, 2 * kRadPerDeg, 1e-15);
@@ -46,6 +46,8 @@ TEST(TowfishConfig, ReadsWhatIsGivenInSiAndDegrees) {
   EXPECT_FALSE(config.sensor(Sensor::Speed).enabled);
   EXPECT_EQ(config.robust_kf.loss.kind(), LossKind::Tukey);
   EXPECT_EQ(config.robust_kf.loss.tuning(), Loss::defaultTuning(LossKind::Tukey));  // not Huber's 1.345
+  EXPECT_FALSE(config.robust_kf.calibrate);
+  EXPECT_TRUE(config.student_t_kf.calibrate);
   EXPECT_EQ(config.rts.loss.tuning(), 3);
   EXPECT_NEAR(config.mckf.loss.tuning(), 4 * std::sqrt(2.0), 1e-12);
   EXPECT_EQ(config.mixture_kf.scales[3], 16);

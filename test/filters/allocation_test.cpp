@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "sas_motion/filters/bank_kalman_filter.hpp"
+#include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/reacquiring_filter.hpp"
@@ -96,6 +97,7 @@ TEST(Allocation, PredictAndUpdateUseNoHeap) {
       options.loss = Loss(lossFromName(name));
       options.robustify_process = process;
       expectNoAllocation(name.c_str(), RobustKalmanFilter<kStates>(options));
+      expectNoAllocation(("calibrated " + name).c_str(), CalibratedFilter<RobustKalmanFilter<kStates>, kStates>(RobustKalmanFilter<kStates>(options)));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sas_motion/filters/bank_kalman_filter.hpp"
+#include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
 #include "sas_motion/filters/gaussian_sum_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
@@ -57,6 +58,16 @@ struct HuberBoth : RobustKalmanFilter<6> {
   HuberBoth() : RobustKalmanFilter(robust(LossKind::Huber, true)) {}
 };
 
+struct CalibratedHuber : CalibratedFilter<RobustKalmanFilter<6>, 6> {
+  CalibratedHuber() : CalibratedFilter(Huber()) {}
+};
+struct CalibratedTukey : CalibratedFilter<RobustKalmanFilter<6>, 6> {
+  CalibratedTukey() : CalibratedFilter(Tukey()) {}
+};
+struct CalibratedStudentT : CalibratedFilter<StudentTKalmanFilter<6>, 6> {
+  CalibratedStudentT() : CalibratedFilter(StudentT()) {}
+};
+
 template <class Filter>
 class EveryFilter : public ::testing::Test {
  protected:
@@ -72,7 +83,7 @@ class EveryFilter : public ::testing::Test {
   }
 };
 
-using Filters = ::testing::Types<Kf, Bank, Gated, Mixture, StudentT, Huber, Tukey, HuberBoth, Sum>;
+using Filters = ::testing::Types<Kf, Bank, Gated, Mixture, StudentT, Huber, Tukey, HuberBoth, CalibratedHuber, CalibratedTukey, CalibratedStudentT, Sum>;
 TYPED_TEST_SUITE(EveryFilter, Filters);
 
 TYPED_TEST(EveryFilter, RefusesWhatIsNoMeasurementAndStaysAtThePrior) {

@@ -26,6 +26,17 @@ TEST_P(EveryLoss, TheDerivativeOfRhoIsResidualTimesWeight) {
   }
 }
 
+TEST_P(EveryLoss, ItsSlopeIsTheDerivativeOfResidualTimesWeight) {
+  const double bend = loss.kind() == LossKind::Dcs ? std::sqrt(loss.tuning()) : loss.tuning();
+  for (double r = -15.03; r < 15; r += 0.1) {
+    const double h = 1e-6, up = r + h, down = r - h, slope = (up * loss.weight(up) - down * loss.weight(down)) / (2 * h);
+    if (std::abs(std::abs(r) - bend) < 2 * h) continue;
+    ASSERT_NEAR(loss.slope(r), slope, 1e-6) << "r " << r;
+    ASSERT_LE(loss.slope(r), 1);
+  }
+  EXPECT_EQ(loss.slope(0), 1);
+}
+
 TEST_P(EveryLoss, IsHalfTheSquareNearZero) {
   EXPECT_EQ(loss.rho(0), 0);
   EXPECT_EQ(loss.weight(0), 1);

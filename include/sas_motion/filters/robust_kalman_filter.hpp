@@ -22,6 +22,7 @@ class RobustKalmanFilter {
     int max_iterations = 10;         ///< 1 is the paper's single pass
     double tolerance = 1e-6;         ///< fixed point: no weight moves more [-]
     bool robustify_process = false;  ///< let W1 act, with the same loss
+    bool calibrate = true;           ///< in a CalibratedFilter, unless W1 acts or a single pass is made: let the covariance say how large the errors are
   };
 
   /// Throws std::invalid_argument where max_iterations < 1 or tolerance is not positive.
@@ -31,6 +32,13 @@ class RobustKalmanFilter {
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
+
+  /// For CalibratedFilter, which stands on the fixed point with W1 = I.
+  bool calibrates() const { return options_.calibrate && options_.max_iterations > 1 && !options_.robustify_process; }
+  Influence influence(double residual, double) const {
+    const double weight = options_.loss.weight(residual);
+    return {weight * residual, options_.loss.slope(residual), weight};
+  }
 
  private:
   template <int M>

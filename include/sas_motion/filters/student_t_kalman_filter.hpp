@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sas_motion/filters/kalman_filter.hpp"
+#include "sas_motion/robust/loss.hpp"
 
 namespace sas_motion {
 
@@ -19,6 +20,7 @@ class StudentTKalmanFilter {
     double degrees_of_freedom = 4;  ///< nu [-]
     int max_iterations = 30;
     double tolerance = 1e-6;  ///< fixed point: no weight moves more [-]
+    bool calibrate = true;    ///< in a CalibratedFilter: let the covariance say how large the errors are
   };
 
   /// Throws std::invalid_argument where an option is out of its range.
@@ -28,6 +30,10 @@ class StudentTKalmanFilter {
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
+
+  /// For CalibratedFilter: psi(r) = lambda r, with `variance` that of the posterior in this row over R, taken as fixed.
+  bool calibrates() const { return options_.calibrate; }
+  Influence influence(double residual, double variance) const;
 
  private:
   Options options_;

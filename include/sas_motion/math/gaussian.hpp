@@ -19,4 +19,16 @@ const Gaussian<N>& gaussian(const Gaussian<N>& belief) {
   return belief;
 }
 
+/// The covariance that a filter weighs its prediction with; one that keeps another than its summary's has its own.
+template <int N>
+Matrix<N> ownCovariance(const Gaussian<N>& belief) {
+  return belief.covariance;
+}
+
+/// Makes a belief less sure; a filter that keeps more than its summary has its own.
+template <int N>
+void addCovariance(Gaussian<N>& belief, const Matrix<N>& more) {
+  belief.covariance += more;
+}
+
 }  // namespace sas_motion

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sas_motion/config/towfish_config.hpp"
+#include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/reacquiring_filter.hpp"
 
 namespace sas_motion::towfish {
@@ -18,13 +19,14 @@ bool withFilter(const std::string& name, const Config& config, Use&& use) {
     use(ReacquiringFilter<decltype(filter), kStates>(filter, config.reset_after));
     return true;
   };
+  const auto calibrated = [&](auto filter) { return reacquiring(CalibratedFilter<decltype(filter), kStates>(filter)); };
   if (name == "kf") return use(KalmanFilter<kStates>()), true;
   if (name == "bank_kf") return use(BankKalmanFilter<kStates>(config.bank_kf)), true;
   if (name == "gated_kf") return reacquiring(GatedKalmanFilter<kStates>(config.gated_kf));
-  if (name == "robust_kf") return reacquiring(RobustKalmanFilter<kStates>(config.robust_kf));
-  if (name == "mckf") return reacquiring(RobustKalmanFilter<kStates>(config.mckf));
+  if (name == "robust_kf") return calibrated(RobustKalmanFilter<kStates>(config.robust_kf));
+  if (name == "mckf") return calibrated(RobustKalmanFilter<kStates>(config.mckf));
   if (name == "mixture_kf") return reacquiring(MixtureKalmanFilter<kStates>(config.mixture_kf));
-  if (name == "student_t_kf") return reacquiring(StudentTKalmanFilter<kStates>(config.student_t_kf));
+  if (name == "student_t_kf") return calibrated(StudentTKalmanFilter<kStates>(config.student_t_kf));
   const std::string prefix = "robust_kf_";  // with another loss at its customary tuning
   if (name.rfind(prefix, 0) != 0) return false;
   const auto& losses = lossNames();
@@ -32,7 +34,7 @@ bool withFilter(const std::string& name, const Config& config, Use&& use) {
   if (std::find(losses.begin(), losses.end(), loss) == losses.end()) return false;
   auto options = config.robust_kf;
   options.loss = Loss(lossFromName(loss));
-  return reacquiring(RobustKalmanFilter<kStates>(options));
+  return calibrated(RobustKalmanFilter<kStates>(options));
 }
 
 }  // namespace sas_motion::towfish

@@ -7,6 +7,11 @@
 
 namespace sas_motion {
 
+/// What a robust estimate makes of a whitened residual: psi, its slope, and the weight psi / r in [0, 1].
+struct Influence {
+  double psi, slope, weight;
+};
+
 enum class LossKind { L2, Huber, PseudoHuber, Cauchy, Tukey, GemanMcClure, Welsch, Dcs };
 
 /// A loss rho(r) of a whitened residual r (unit variance when all is well), as M-estimation uses it [Huber1981, Zhang1997].
@@ -22,6 +27,8 @@ class Loss {
   double rho(double residual) const;
   /// psi(r) / r with psi = rho', in [0, 1]; 1 at r = 0.
   double weight(double residual) const;
+  /// psi'(r), at most 1; of huber and dcs, the limit from within at the bend.
+  double slope(double residual) const;
   /// True where the weight falls so fast that rho is not convex: an iteration's answer depends on its start.
   bool redescending() const { return redescending(kind_); }
 
