@@ -40,16 +40,9 @@ async function start() {
     await unpackPlotly();
     await draw();
   } catch (error) {
-    const problem = document.getElementById('problem');
-    problem.textContent = `The plots cannot be drawn in this browser (${error.message}); the tables are complete.`;
-    problem.hidden = false;
-    return;
+    return tellProblem(error);
   }
-  chooser.addEventListener('change', draw);
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
-  matchMedia('(max-width: 639px)').addEventListener('change', draw);
-  addEventListener('beforeprint', () => drawForPaper(true));
-  addEventListener('afterprint', () => drawForPaper(false));
+  redrawOnChange([chooser], draw, drawForPaper);
 }
 
 if (data.order.length) start();

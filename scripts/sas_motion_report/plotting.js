@@ -55,3 +55,18 @@ function stackedFigure(data, theme, rows, shapes) {
   });
   return {traces: rows.flatMap(([, traces], i) => traces.map(trace => ({...trace, xaxis: 'x', yaxis: `y${i ? i + 1 : ''}`}))), layout};
 }
+
+/** What a page says in place of plots that it cannot draw. */
+function tellProblem(error) {
+  const problem = document.getElementById('problem');
+  problem.textContent = `The plots cannot be drawn in this browser (${error.message}); the tables are complete.`;
+  problem.hidden = false;
+}
+
+/** Draws again when a chooser, the colours, the width or the paper changes. */
+function redrawOnChange(choosers, draw, drawForPaper) {
+  choosers.forEach(chooser => chooser.addEventListener('change', draw));
+  ['(prefers-color-scheme: dark)', '(max-width: 639px)'].forEach(query => matchMedia(query).addEventListener('change', draw));
+  addEventListener('beforeprint', () => drawForPaper(true));
+  addEventListener('afterprint', () => drawForPaper(false));
+}

@@ -66,17 +66,9 @@ async function start() {
     chooseTab(tabs[0], () => {});
     await draw();
   } catch (error) {
-    const problem = document.getElementById('problem');
-    problem.textContent = `The plots cannot be drawn in this browser (${error.message}); the tables are complete.`;
-    problem.hidden = false;
-    return;
+    return tellProblem(error);
   }
-  lawChooser.addEventListener('change', draw);
-  estimatorChooser.addEventListener('change', draw);
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
-  matchMedia('(max-width: 639px)').addEventListener('change', draw);
-  addEventListener('beforeprint', () => drawForPaper(true));
-  addEventListener('afterprint', () => drawForPaper(false));
+  redrawOnChange([lawChooser, estimatorChooser], draw, drawForPaper);
 }
 
 if (tabs.length) start();
