@@ -7,7 +7,7 @@
 
 #include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/evaluation/information.hpp"
-#include "sas_motion/filters/law_aware.hpp"
+#include "sas_motion/evaluation/law_aware.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/models/constant_velocity.hpp"
 #include "sas_motion/pipeline/filter_by_name.hpp"

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "sas_motion/io/fingerprint.hpp"
 #include "systems.hpp"
 
 namespace sas_motion {
@@ -19,13 +20,6 @@ std::string contents(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();
-}
-
-/// FNV-1a [Fowler1991].
-std::string hashOf(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return fmt::format("{:016x}", hash);
 }
 
 /// The suite without the number of runs, and the files that it names.
@@ -70,7 +64,7 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
   }
   if (suite.campaigns.empty()) yaml.fail("campaigns", "is missing; list at least one");
   yaml.finish();
-  suite.hash = hashOf(whatRunsDependOn(file));
+  suite.hash = Fingerprint::ofText(whatRunsDependOn(file));
   return suite;
 }
 

@@ -136,7 +136,7 @@ class TowfishSystem final : public System {
       trace.time.push_back(secondsBetween(Simulator::kStart, estimate.stamp));
       trace.error.push_back(error.head<2>().norm());
       trace.sigma3.push_back(3 * std::sqrt(estimate.belief.covariance.diagonal().head<2>().sum()));
-      trace.nees.push_back(error.dot(estimate.belief.covariance.llt().solve(error)));
+      trace.nees.push_back(normalisedSquare(estimate, run.at(estimate.stamp)));
     }
     for (const auto& audit : output.audits) {
       if (audit.sensor != Sensor::Position || !scored(audit.stamp)) continue;

@@ -68,13 +68,6 @@ void summarize(BankBelief<N>& belief) {
   symmetrize(belief.summary.covariance);
 }
 
-/// Makes the covariance reach `distance` in row h: with the states that go with it, and on its own.
-template <int N>
-void widen(Matrix<N>& P, const Vector<N>& h, double distance) {
-  const Vector<N> drift = P * h / h.dot(P * h), jump = h / h.squaredNorm();
-  P += distance * distance * (drift * drift.transpose() + jump * jump.transpose());
-}
-
 }  // namespace
 
 template <int N>
@@ -188,7 +181,7 @@ void BankKalmanFilter<N>::judge(Belief& belief, const LinearMeasurement<N, M>& z
       const Vector<N> H = z.H.row(row).transpose();
       const double reach = z.innovation(row) - H.dot(h.deviation);
       if (i == 1 && c.run > (shared[row] > 0.5 ? options_.burst : options_.patience)) {
-        widen(h.covariance, H, reach);
+        h.covariance += widening<N>(h.covariance, H, reach * reach);
         c.run = c.doubt = 0;
       }
       const Vector<N> PH = h.covariance * H;
@@ -234,17 +227,8 @@ void BankKalmanFilter<N>::judge(Belief& belief, const LinearMeasurement<N, M>& z
 template <int N>
 template <int M>
 Update<BankBelief<N>, M> BankKalmanFilter<N>::update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
-  Update<Belief, M> result;
-  const Projection<N, M> projection(prior.summary.covariance, z.H);
-  result.belief = prior;
-  result.innovation = z.innovation;
-  result.S = projection.HPHt + z.R;
-  const Innovation<M> S(result.S);
-  result.nis = z.innovation.dot(S.solve(z.innovation));
-  if (!S.valid() || !positiveDefinite(z.R) || !std::isfinite(result.nis)) {
-    result.verdict = Verdict::Invalid;
-    return result;
-  }
+  auto result = examine(prior, z);
+  if (result.verdict == Verdict::Invalid) return result;
   if (!result.belief.started) {
     start(result.belief);
     result.belief.epoch_begin = z.time;

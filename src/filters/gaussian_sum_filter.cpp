@@ -152,16 +152,8 @@ template <int N>
 template <int M>
 Update<GaussianSum<N>, M> GaussianSumFilter<N>::update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
   static_assert(M <= Belief::kRows);
-  Update<Belief, M> result;
-  result.belief = prior;
-  result.innovation = z.innovation;
-  result.S = Projection<N, M>(prior.summary.covariance, z.H).HPHt + z.R;
-  const Innovation<M> S(result.S);
-  result.nis = z.innovation.dot(S.solve(z.innovation));
-  if (!S.valid() || !positiveDefinite(z.R) || !std::isfinite(result.nis)) {
-    result.verdict = Verdict::Invalid;
-    return result;
-  }
+  auto result = examine(prior, z);
+  if (result.verdict == Verdict::Invalid) return result;
   Belief& belief = result.belief;
   if (belief.hypotheses.empty()) belief.hypotheses.push_back({Vector<N>::Zero(), belief.summary.covariance, 0, 0, 0});
   for (int row = 0; row < M; ++row)

@@ -49,17 +49,8 @@ typename MixtureKalmanFilter<N>::Collapse MixtureKalmanFilter<N>::collapse(doubl
 template <int N>
 template <int M>
 Update<Gaussian<N>, M> MixtureKalmanFilter<N>::update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
-  Update<Belief, M> result;
-  const Projection<N, M> projection(prior.covariance, z.H);
-  result.belief = prior;
-  result.innovation = z.innovation;
-  result.S = projection.HPHt + z.R;
-  const Innovation<M> S(result.S);
-  result.nis = z.innovation.dot(S.solve(z.innovation));
-  if (!S.valid() || !positiveDefinite(z.R) || !std::isfinite(result.nis)) {
-    result.verdict = Verdict::Invalid;
-    return result;
-  }
+  auto result = examine(prior, z);
+  if (result.verdict == Verdict::Invalid) return result;
   Gaussian<N>& belief = result.belief;
   for (int row = 0; row < M; ++row) {
     const Vector<N> Ph = belief.covariance * z.H.row(row).transpose();

@@ -15,8 +15,6 @@
 namespace sas_motion::towfish {
 namespace {
 
-constexpr double kLateIsNoJump = 1;      // what is this late is late, whatever the lag [s]
-constexpr double kShortenedStart = 0.5;  // of the start's window, after the clock was set: an answer is waited for
 
 template <class Belief, int M>
 Audit auditOf(const Measurement& z, const Update<Belief, M>& update) {
@@ -45,7 +43,7 @@ FilterTimeline<Filter>::FilterTimeline(Make make, const Config& config)
       config_(config),
       model_(config.model),
       filter_(std::make_shared<const Filter>(make_(config))),
-      clock_(std::max(config.max_gap, config.lag), std::max(config.lag, kLateIsNoJump)),
+      clock_(config.max_gap, config.lag),
       start_window_(config.start.window) {}
 
 template <class Filter>
@@ -64,7 +62,7 @@ void FilterTimeline<Filter>::startAnew(Output& output) {
   const auto agreed = clock_.release();
   settleAll(output);
   forget();
-  start_window_ = config_.start.window * kShortenedStart;
+  start_window_ = config_.start.window * ClockGuard::kShortenedStart;
   for (const auto& z : agreed) insert(z, output);
 }
 

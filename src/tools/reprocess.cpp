@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -23,6 +21,7 @@
 #include "progress.hpp"
 #include "sas_motion/bag/bag_reader.hpp"
 #include "sas_motion/io/atomic_file.hpp"
+#include "sas_motion/io/fingerprint.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace {
@@ -39,35 +38,9 @@ struct Options {
   bool resume = false;
 };
 
-/// A hash of a file's bytes: FNV-1a over words of 8 of them, in four strands that the processor takes side by side, then over the strands and
-/// the size. The shift lets high bits count.
-std::string hashOf(const std::string& path) {
-  const auto add = [](std::uint64_t& hash, std::uint64_t word) {
-    hash = (hash ^ word) * 1099511628211ULL;
-    hash ^= hash >> 32U;
-  };
-  std::ifstream stream(path, std::ios::binary);
-  std::array<std::uint64_t, 4> strands{1, 2, 3, 4}, words{};
-  std::uint64_t size = 0;
-  std::vector<char> block(1 << 18);
-  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
-    const auto got = static_cast<std::size_t>(stream.gcount());
-    size += got;
-    std::fill(block.begin() + static_cast<std::ptrdiff_t>(got), block.end(), '\0');  // what is missing of the last words
-    for (std::size_t i = 0; i < got; i += sizeof words) {
-      std::memcpy(words.data(), block.data() + i, sizeof words);
-      for (std::size_t k = 0; k < words.size(); ++k) add(strands[k], words[k]);
-    }
-  }
-  std::uint64_t hash = 1469598103934665603ULL;
-  for (const auto strand : strands) add(hash, strand);
-  add(hash, size);
-  return fmt::format("{:016x}", hash);
-}
-
 /// What identifies a finished bag: the same input, configuration and estimators would give the same bytes again.
 json identity(const std::string& bag, const Options& options) {
-  return {{"input", hashOf(bag)}, {"config", options.config.empty() ? "built in" : hashOf(options.config)}, {"estimators", options.estimators}};
+  return {{"input", Fingerprint::ofFile(bag)}, {"config", options.config.empty() ? "built in" : Fingerprint::ofFile(options.config)}, {"estimators", options.estimators}};
 }
 
 json toJson(const ReprocessReport& report) {

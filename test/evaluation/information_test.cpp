@@ -6,19 +6,15 @@
 
 #include "sas_motion/evaluation/noise_density.hpp"
 #include "sas_motion/simulation/noise_source.hpp"
+#include "simulation/laws.hpp"
 #include "support.hpp"
 
 namespace sas_motion {
 namespace {
 
+using testing::law;
 using Kind = NoiseLaw::Kind;
 
-NoiseLaw law(Kind kind, const std::vector<std::pair<double NoiseLaw::*, double>>& values) {
-  NoiseLaw result;
-  result.kind = kind;
-  for (const auto& [member, value] : values) result.*member = value;
-  return result;
-}
 NoiseLaw studentT(double nu) { return law(Kind::StudentT, {{&NoiseLaw::nu, nu}}); }
 double factor(const NoiseMix& mix) { return MeasurementInformation(mix).factor(); }
 

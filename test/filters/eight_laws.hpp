@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "sas_motion/filters/linearized.hpp"
 #include "sas_motion/math/random.hpp"
+#include "sas_motion/models/constant_velocity.hpp"
 
 namespace sas_motion::testing {
 
@@ -32,27 +32,14 @@ inline const std::array<EightLaw, 8> kEightLaws{{{"gauss"},
                                                  {"both", 0.1, 10, true},
                                                  {"burst", 0, 1, false, true}}};
 
-constexpr double kCvStep = 0.5;  // s
+inline const constant_velocity::Model kCv;
 
-/// One axis: position and velocity.
+/// One axis of the problem: position and velocity.
 inline Transition<2> cvAxis(const Vector<2>& x) {
-  constexpr double T = kCvStep, q = 0.05;
+  const auto all = kCv.transition(Vector<6>::Zero());
   Transition<2> step;
-  step.F << 1, T, 0, 1;
-  step.Q << q * T * T * T / 3, q * T * T / 2, q * T * T / 2, q * T;
-  step.mean = step.F * x;
-  return step;
-}
-
-/// All three: positions, then velocities.
-inline Transition<6> cvStep(const Vector<6>& x) {
-  const auto axis = cvAxis(Vector<2>::Zero());
-  Transition<6> step;
-  for (int row = 0; row < 2; ++row)
-    for (int col = 0; col < 2; ++col) {
-      step.F.block<3, 3>(3 * row, 3 * col) = axis.F(row, col) * Matrix<3>::Identity();
-      step.Q.block<3, 3>(3 * row, 3 * col) = axis.Q(row, col) * Matrix<3>::Identity();
-    }
+  step.F << all.F(0, 0), all.F(0, 3), all.F(3, 0), all.F(3, 3);
+  step.Q << all.Q(0, 0), all.Q(0, 3), all.Q(3, 0), all.Q(3, 3);
   step.mean = step.F * x;
   return step;
 }
@@ -64,10 +51,8 @@ struct CvSample {
   Vector<4> measurement;  ///< likewise
 };
 
-const Vector<4> kCvVariance(1, 1, 1, 0.04);
-
 inline std::vector<CvSample> cvRun(const EightLaw& law, Random& random, int steps) {
-  const auto model = cvStep(Vector<6>::Zero());
+  const auto model = kCv.transition(Vector<6>::Zero());
   const Matrix<6> root = model.Q.llt().matrixL();
   Vector<6> x = Vector<6>::Zero();
   int burst = 0;
@@ -80,7 +65,7 @@ inline std::vector<CvSample> cvRun(const EightLaw& law, Random& random, int step
     x = model.F * x + std::sqrt(sample.process) * (root * w);
     burst = law.burst && burst == 0 && random.bernoulli(0.01) ? 10 : std::max(0, burst - 1);
     for (int row = 0; row < 4; ++row) {
-      const double sigma = std::sqrt(kCvVariance(row));
+      const double sigma = kCv.sigma()(row);
       double& told = sample.measurement(row);
       told = law.K == 0 ? 1.5 / random.gamma(1.5) : random.bernoulli(law.epsilon) ? law.K * law.K : 1;
       sample.z(row) = x(row) + sigma * std::sqrt(told) * random.gaussian();

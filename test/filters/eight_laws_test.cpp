@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "sas_motion/filters/kalman_filter.hpp"
-#include "sas_motion/filters/law_aware.hpp"
+#include "sas_motion/evaluation/law_aware.hpp"
 #include "support.hpp"
 
 namespace sas_motion {
@@ -31,8 +31,8 @@ NoiseLaw noiseOf(const EightLaw& law) {
   if (law.burst) {
     NoiseLaw burst;
     burst.kind = NoiseLaw::Kind::Burst;
-    burst.rate = -std::log1p(-0.01) / testing::kCvStep;
-    burst.length = 10 * testing::kCvStep;
+    burst.rate = -std::log1p(-0.01) / testing::kCv.step;
+    burst.length = 10 * testing::kCv.step;
     burst.K = 20;
     return burst;
   }
@@ -44,8 +44,8 @@ NoiseLaw noiseOf(const EightLaw& law) {
 
 GaussianSumOptions reference(const EightLaw& law, BurstSize bursts) {
   NoiseLaw process = testing::contaminated(law.process ? 0.05 : 0, 10);
-  process.epoch = testing::kCvStep;
-  auto options = lawAware(noiseOf(law), process, testing::kCvStep, bursts);
+  process.epoch = testing::kCv.step;
+  auto options = lawAware(noiseOf(law), process, testing::kCv.step, bursts);
   options.mode.common = true;
   options.mode.rows = 0b0111;  // the velocity has no bursts
   return options;
@@ -62,9 +62,9 @@ void runAxis(const std::vector<testing::CvSample>& run, int axis, GaussianSumOpt
     for (int row = axis; row < 4; row += 3) {
       LinearMeasurement<2, 1> z;
       z.H = row < 3 ? Matrix<1, 2>(1, 0) : Matrix<1, 2>(0, 1);
-      z.R(0, 0) = testing::kCvVariance(row);
+      z.R(0, 0) = testing::kCv.sigma().cwiseAbs2()(row);
       z.innovation(0) = run[k].z(row) - z.H.dot(belief.summary.mean);
-      z.time = testing::kCvStep * static_cast<double>(k + 1);
+      z.time = testing::kCv.step * static_cast<double>(k + 1);
       z.source = row / 3;
       belief = filter.update(belief, z).belief;
     }
@@ -77,9 +77,9 @@ LinearMeasurement<6, 4> measured(const testing::CvSample& sample, const Vector<6
   LinearMeasurement<6, 4> z;
   z.H.setZero();
   z.H.topLeftCorner<4, 4>().setIdentity();
-  z.R = testing::kCvVariance.asDiagonal();
+  z.R = testing::kCv.sigma().cwiseAbs2().asDiagonal();
   z.innovation = sample.z - mean.head<4>();
-  z.time = testing::kCvStep * static_cast<double>(k + 1);
+  z.time = testing::kCv.step * static_cast<double>(k + 1);
   return z;
 }
 
@@ -87,11 +87,11 @@ void runOracle(const std::vector<testing::CvSample>& run, Score& score) {
   const KalmanFilter<6> filter;
   Gaussian<6> belief;
   for (std::size_t k = 0; k < run.size(); ++k) {
-    auto step = testing::cvStep(belief.mean);
+    auto step = testing::kCv.transition(belief.mean);
     step.Q *= run[k].process;
     belief = filter.predict(belief, step);
     auto z = measured(run[k], belief.mean, k);
-    z.R = testing::kCvVariance.cwiseProduct(run[k].measurement).asDiagonal();
+    z.R = testing::kCv.sigma().cwiseAbs2().cwiseProduct(run[k].measurement).asDiagonal();
     belief = filter.update(belief, z).belief;
     score.add<6>(static_cast<int>(k), run[k].truth - belief.mean, belief.covariance, 3);
   }
@@ -101,7 +101,7 @@ void runAll(const std::vector<testing::CvSample>& run, const GaussianSumOptions&
   const GaussianSumFilter<6> filter(options);
   GaussianSum<6> belief{Gaussian<6>{}};
   for (std::size_t k = 0; k < run.size(); ++k) {
-    belief = filter.predict(belief, testing::cvStep(belief.summary.mean));
+    belief = filter.predict(belief, testing::kCv.transition(belief.summary.mean));
     belief = filter.update(belief, measured(run[k], belief.summary.mean, k)).belief;
     score.add<6>(static_cast<int>(k), run[k].truth - belief.summary.mean, belief.summary.covariance, 3);
   }

@@ -6,7 +6,7 @@
 
 #include "filters/eight_laws.hpp"
 #include "sas_motion/filters/kalman_filter.hpp"
-#include "sas_motion/filters/law_aware.hpp"
+#include "sas_motion/evaluation/law_aware.hpp"
 #include "support.hpp"
 
 namespace sas_motion {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sas_motion/campaign/system.hpp"
-#include "sas_motion/evaluation/monte_carlo.hpp"
+#include "sas_motion/campaign/towfish_campaign.hpp"
 
 namespace sas_motion {
 

@@ -71,4 +71,27 @@ Gaussian<N> condition(const Gaussian<N>& prior, const Projection<N, M>& projecti
   return posterior;
 }
 
+/// The report of an update before anything is fused: the prior with innovation, S and NIS; Invalid where z is no measurement.
+template <class Belief, int N, int M>
+Update<Belief, M> examine(const Belief& prior, const LinearMeasurement<N, M>& z) {
+  Update<Belief, M> result;
+  result.belief = prior;
+  result.innovation = z.innovation;
+  result.S = Projection<N, M>(gaussian(prior).covariance, z.H).HPHt + z.R;
+  const Innovation<M> S(result.S);
+  result.nis = z.innovation.dot(S.solve(z.innovation));
+  if (!S.valid() || !positiveDefinite(z.R) || !std::isfinite(result.nis)) result.verdict = Verdict::Invalid;
+  return result;
+}
+
+/// What makes P reach `variance` further in row h: once with the states that go with it, for a drift, and once on its own, for a jump of the
+/// sensor's. With the first alone a jump of the position would be taken for a current of tens of metres a second. Zero where there is
+/// nothing to add.
+template <int N>
+Matrix<N> widening(const Matrix<N>& P, const Vector<N>& h, double variance) {
+  const Vector<N> drift = P * h / h.dot(P * h), jump = h / h.squaredNorm();
+  if (!(variance > 0) || !drift.allFinite()) return Matrix<N>::Zero();
+  return variance * (drift * drift.transpose() + jump * jump.transpose());
+}
+
 }  // namespace sas_motion

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sas_motion/filters/conditioning.hpp"
 #include "sas_motion/filters/kalman_filter.hpp"
 
 namespace sas_motion {
@@ -60,7 +61,8 @@ class ReacquiringFilter {
       auto& doubt = disbelief[static_cast<std::size_t>(z.source)][static_cast<std::size_t>(row)];
       if (!lockedOut(doubt, inner.weights(row), inner.innovation(row), z.R(row, row), z.time)) continue;
       doubt = {};
-      widen(widened, z.H.row(row).transpose(), inner.innovation(row) * inner.innovation(row) - inner.S(row, row));
+      const double variance = inner.innovation(row) * inner.innovation(row) - inner.S(row, row);
+      addCovariance<N>(widened, widening<N>(ownCovariance(widened), z.H.row(row).transpose(), variance));
       reacquire = true;
     }
     if (reacquire) inner = filter_.update(widened, z);
@@ -81,14 +83,6 @@ class ReacquiringFilter {
     doubt.agreements += agrees;
     doubt.last_innovation = innovation;
     return agrees && time - doubt.since > reset_after_ && doubt.count >= kFewest && doubt.agreements >= kFewestAgreements;
-  }
-
-  /// Adds `variance` to h^T P h twice: with the states that go with it, for a drift, and on its own, for a jump of the sensor's. With the
-  /// first alone a jump of the position would be taken for a current of tens of metres a second.
-  static void widen(typename Filter::Belief& belief, const Vector<N>& h, double variance) {
-    const Matrix<N> P = ownCovariance(belief);
-    const Vector<N> drift = P * h / h.dot(P * h), jump = h / h.squaredNorm();
-    if (variance > 0 && drift.allFinite()) addCovariance<N>(belief, variance * (drift * drift.transpose() + jump * jump.transpose()));
   }
 
   Filter filter_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -17,8 +18,11 @@ class ClockGuard {
  public:
   enum class Answer { Believed, Held, ClockSet };
 
-  /// Stamps are believed up to `ahead` after the newest believed one and up to `behind` before it [s].
-  ClockGuard(double ahead, double behind) : ahead_(stampFromSeconds(ahead)), behind_(stampFromSeconds(behind)) {}
+  /// For an estimator that waits `lag` for late measurements: stamps are believed up to `max_gap` after the newest believed one, or the lag
+  /// where that is more, and up to the lag before it, or what is late whatever the lag [s].
+  ClockGuard(double max_gap, double lag) : ahead_(stampFromSeconds(std::max(max_gap, lag))), behind_(stampFromSeconds(std::max(lag, kLateIsNoJump))) {}
+
+  static constexpr double kShortenedStart = 0.5;  ///< of the start's window, after the clock was set: an answer is waited for
 
   /// What to do with a measurement; refusals of those held before go to `output`. After ClockSet, release() has this one too.
   Answer judge(const Measurement& z, Output& output);
@@ -33,6 +37,7 @@ class ClockGuard {
   void reset() { *this = ClockGuard(ahead_, behind_); }
 
  private:
+  static constexpr double kLateIsNoJump = 1;  // [s]
   ClockGuard(Stamp ahead, Stamp behind) : ahead_(ahead), behind_(behind) {}
   bool near(Stamp stamp, Stamp newest) const { return stamp <= newest + ahead_ && stamp >= newest - behind_; }
   bool enough() const;

@@ -16,8 +16,6 @@ namespace sas_motion::towfish {
 namespace {
 
 constexpr double kMargin = 1;            // GTSAM's window is this much longer, so that a node is put out before it is marginalised [s]
-constexpr double kLateIsNoJump = 1;      // what is this late is late, whatever the reorder time [s]
-constexpr double kShortenedStart = 0.5;  // of the start's window, after the clock was set: an answer is waited for
 
 gtsam::ISAM2Params isamParameters() {
   gtsam::ISAM2Params params;
@@ -113,7 +111,7 @@ struct FixedLagSmoother::Window {
 
 FixedLagSmoother::FixedLagSmoother(const Config& config)
     : config_(config),
-      clock_(std::max(config.max_gap, config.fixed_lag.reorder), std::max(config.fixed_lag.reorder, kLateIsNoJump)),
+      clock_(config.max_gap, config.fixed_lag.reorder),
       start_window_(config.start.window),
       window_(std::make_unique<Window>(config)) {}
 FixedLagSmoother::~FixedLagSmoother() = default;
@@ -133,7 +131,7 @@ void FixedLagSmoother::startAnew(Output& output) {
   settleAll(output);
   for (const auto& z : waiting_) output.audits.push_back(refusal(z, Verdict::Stale, "before the first position and heading"));
   forget();
-  start_window_ = config_.start.window * kShortenedStart;
+  start_window_ = config_.start.window * ClockGuard::kShortenedStart;
   for (const auto& z : agreed) insert(z, output);
 }
 

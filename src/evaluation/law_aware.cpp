@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/filters/law_aware.hpp"
+#include "sas_motion/evaluation/law_aware.hpp"
 
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>

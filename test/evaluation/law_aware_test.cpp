@@ -1,22 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/filters/law_aware.hpp"
+#include "sas_motion/evaluation/law_aware.hpp"
 
 #include <cmath>
 
+#include "simulation/laws.hpp"
 #include "support.hpp"
 
 namespace sas_motion {
 namespace {
 
+using testing::law;
 using Kind = NoiseLaw::Kind;
 
-NoiseLaw law(Kind kind, const std::vector<std::pair<double NoiseLaw::*, double>>& values) {
-  NoiseLaw result;
-  result.kind = kind;
-  for (const auto& [member, value] : values) result.*member = value;
-  return result;
-}
 
 /// Sum of probabilities, mean and variance of a row's terms.
 Vector<3> moments(const std::vector<NoiseTerm>& terms) {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/evaluation/monte_carlo.hpp"
+#include "sas_motion/campaign/towfish_campaign.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "sas_motion/filters/law_aware.hpp"
+#include "sas_motion/evaluation/law_aware.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/pipeline/filter_timeline.hpp"
 
