@@ -41,27 +41,39 @@ class SigmaPointFilter {
     return prior;
   }
 
-  /// The belief after reading z = h(x) + v, v ~ N(0, R). The innovation is z less the mean of h over the prior, not h of its mean.
+  /// Where h sends the prior's points.
+  template <int M>
+  struct Image {
+    Matrix<N, Count> dX;           ///< the points less the prior's mean
+    Vector<M> mean;                ///< of h
+    Matrix<M, Count> deviations;   ///< of h at each point from it
+  };
+
+  /// Nothing where the prior's covariance is not positive definite.
   template <int M, class Function, class Difference = PlainDifference>
-  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) const {
+  std::optional<Image<M>> project(const Belief& prior, const Function& h, const Difference& difference = {}) const {
+    const auto L = choleskyLower<N>(prior.covariance);
+    if (!L) return std::nullopt;
+    return transform<M>(prior.mean, *L * points_.offsets, h, difference);
+  }
+
+  /// Fuses an innovation, z less the image's mean, with noise covariance R. The report holds the innovation, its S and NIS.
+  template <int M>
+  Update<Belief, M> condition(const Belief& prior, const Image<M>& image, const Vector<M>& innovation, const Matrix<M>& R) const {
     Update<Belief, M> result;
     result.belief = prior;
     result.verdict = Verdict::Invalid;
-    const auto L = choleskyLower<N>(prior.covariance);
-    if (!L || !positiveDefinite<M>(R)) return result;
-
-    const Matrix<N, Count> dX = *L * points_.offsets;
-    const auto image = transform<M>(prior.mean, dX, h, difference);
-    result.innovation = difference(z, image.mean);
+    if (!positiveDefinite<M>(R)) return result;
+    result.innovation = innovation;
     result.S = R + secondMoment<M, M>(image.deviations, image.deviations);
     const Innovation<M> S(result.S);
-    result.nis = result.innovation.dot(S.solve(result.innovation));
+    result.nis = innovation.dot(S.solve(innovation));
     if (!S.valid() || !std::isfinite(result.nis)) return result;
 
-    const Matrix<N, M> K = S.solve(secondMoment<M, N>(image.deviations, dX)).transpose();
+    const Matrix<N, M> K = S.solve(secondMoment<M, N>(image.deviations, image.dX)).transpose();
     // P - K S K^T as a sum of squares, as Joseph's form is for a linear h: with weights that are not negative it cannot lose its sign.
-    const Matrix<N, Count> residuals = dX - K * image.deviations;
-    Belief posterior{prior.mean + K * result.innovation, secondMoment<N, N>(residuals, residuals) + K * R * K.transpose()};
+    const Matrix<N, Count> residuals = image.dX - K * image.deviations;
+    Belief posterior{prior.mean + K * innovation, secondMoment<N, N>(residuals, residuals) + K * R * K.transpose()};
     symmetrize(posterior.covariance);
     if (!posterior.mean.allFinite() || !choleskyLower<N>(posterior.covariance)) return result;
     result.belief = posterior;
@@ -69,14 +81,23 @@ class SigmaPointFilter {
     return result;
   }
 
- private:
-  /// Where the points land: their mean and each one's difference from it.
-  template <int M>
-  struct Image {
-    Vector<M> mean;
-    Matrix<M, Count> deviations;
-  };
+  /// The belief after reading z = h(x) + v, v ~ N(0, R). The innovation is z less the mean of h over the prior, not h of its mean.
+  template <int M, class Function, class Difference = PlainDifference>
+  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) const {
+    if (const auto image = project<M>(prior, h, difference)) return condition<M>(prior, *image, difference(z, image->mean), R);
+    Update<Belief, M> result;
+    result.belief = prior;
+    result.verdict = Verdict::Invalid;
+    return result;
+  }
 
+  /// The weighted sum of products a b^T over the points.
+  template <int A, int B>
+  Matrix<A, B> secondMoment(const Matrix<A, Count>& a, const Matrix<B, Count>& b) const {
+    return a * points_.covariance_weights.asDiagonal() * b.transpose();
+  }
+
+ private:
   template <int M, class Function, class Difference>
   Image<M> transform(const Vector<N>& x, const Matrix<N, Count>& dX, const Function& function, const Difference& difference) const {
     const Vector<M> reference = function(x);
@@ -85,14 +106,9 @@ class SigmaPointFilter {
       landed.col(i) = function(Vector<N>(x + dX.col(i)));
       offsets.col(i) = difference(Vector<M>(landed.col(i)), reference);
     }
-    Image<M> image{reference + offsets * points_.mean_weights, {}};
+    Image<M> image{dX, reference + offsets * points_.mean_weights, {}};
     for (int i = 0; i < Count; ++i) image.deviations.col(i) = difference(Vector<M>(landed.col(i)), image.mean);
     return image;
-  }
-
-  template <int A, int B>
-  Matrix<A, B> secondMoment(const Matrix<A, Count>& a, const Matrix<B, Count>& b) const {
-    return a * points_.covariance_weights.asDiagonal() * b.transpose();
   }
 
   SigmaPoints<N, Count> points_;

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "sas_motion/math/types.hpp"
+
+namespace sas_motion {
+
+/// Pitch (bow up), roll (starboard down) and heading (clockwise from north) of a body whose axes are starboard, forward, up, in a map whose
+/// axes are east, north, up [rad].
+struct Attitude {
+  double pitch = 0, roll = 0, heading = 0;
+};
+
+/// The rotation of an attitude: v_map = C v_body = Rz(-heading) Rx(pitch) Ry(roll) v_body. [Titterton2004, 3.6, in these axes]
+inline Matrix<3> rotationOf(const Attitude& attitude) {
+  using Eigen::AngleAxisd;
+  return (AngleAxisd(-attitude.heading, Vector<3>::UnitZ()) * AngleAxisd(attitude.pitch, Vector<3>::UnitX()) *
+          AngleAxisd(attitude.roll, Vector<3>::UnitY()))
+      .toRotationMatrix();
+}
+
+/// The attitude of a rotation; at a pitch of +-90 degrees roll and heading are not separate.
+inline Attitude attitudeOf(const Matrix<3>& C) {
+  return {std::asin(std::clamp(C(2, 1), -1.0, 1.0)), std::atan2(-C(2, 0), C(2, 2)), std::atan2(C(0, 1), C(1, 1))};
+}
+
+/// Components of starboard, forward, up from those of forward, port, up (REP-103); its transpose leads back.
+inline Matrix<3> bodyFromRosBody() { return (Matrix<3>() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(); }
+
+}  // namespace sas_motion

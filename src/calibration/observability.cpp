@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/calibration/observability.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sas_motion::usbl {
+namespace {
+
+constexpr double kWellKnown = 0.2;  // of the prior's standard deviation: what is known no better rests on the prior
+constexpr double kNoticeable = 0.3;  // a component of the weak direction that is worth naming
+
+const char* plainName(int unknown) {
+  static const std::array<const char*, kUnknowns> names{"pitch mounting angle",         "roll mounting angle",           "heading mounting angle",
+                                                        "athwartships lever arm",       "fore-and-aft lever arm",        "vertical lever arm",
+                                                        "transponder's east position",  "transponder's north position",  "transponder's depth",
+                                                        "sound speed"};
+  return names[static_cast<std::size_t>(unknown)];
+}
+
+std::string list(std::vector<std::string> names) {
+  if (names.size() < 2) return names.empty() ? "" : names[0];
+  const std::string last = names.back();
+  names.pop_back();
+  return fmt::format("{} and {}", fmt::join(names, ", "), last);
+}
+
+/// The unknowns with a noticeable share in the weak direction, the largest first.
+std::string weakUnknowns(const Observability& result) {
+  std::vector<std::size_t> order(result.unknowns.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto share = [&](std::size_t i) { return std::abs(result.weak_direction[i]); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
+  std::vector<std::string> names;
+  for (const auto i : order)
+    if (share(i) > kNoticeable) names.push_back(plainName(result.unknowns[i]));
+  return list(names);
+}
+
+std::string verdictOf(const Observability& result, std::size_t pings) {
+  if (result.observable) return "every unknown is seen";
+  const std::string what = weakUnknowns(result);
+  const bool several = what.find(" and ") != std::string::npos;
+  return fmt::format("not observable: {} pings on this track cannot {} {}; what is given for {} rests on the prior; sail a figure-eight over the transponder, crossing lines or a circle beside it",
+                     pings, several ? "separate" : "tell", what, several ? "them" : "it");
+}
+
+}  // namespace
+
+Observability observability(const Problem& problem, const Unknowns& x, const Vector<kChannels>& factor) {
+  Observability result;
+  for (int i = 0; i < kUnknowns; ++i)
+    if (problem.prior.estimated[static_cast<std::size_t>(i)]) result.unknowns.push_back(i);
+  const auto n = static_cast<Eigen::Index>(result.unknowns.size());
+  const Matrix<kUnknowns> data = information(problem, x, factor);
+  result.bound = covarianceFrom(data, problem.prior).diagonal().cwiseSqrt();
+  if (n == 0) return result;
+  Eigen::MatrixXd scaled(n, n);
+  for (Eigen::Index row = 0; row < n; ++row)
+    for (Eigen::Index col = 0; col < n; ++col) {
+      const int a = result.unknowns[static_cast<std::size_t>(row)], b = result.unknowns[static_cast<std::size_t>(col)];
+      scaled(row, col) = problem.prior.sigma(a) * data(a, b) * problem.prior.sigma(b);
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  for (Eigen::Index i = n - 1; i >= 0; --i) result.singular_values.push_back(std::max(0.0, eigen.eigenvalues()(i)));
+  const Eigen::VectorXd weak = eigen.eigenvectors().col(0).cwiseProduct(scaled.diagonal().cwiseMax(1e-12).cwiseSqrt()).normalized();
+  result.weak_direction.assign(weak.data(), weak.data() + n);
+  result.weak_sigma = 1 / std::sqrt(result.singular_values.back());
+  result.observable = result.weak_sigma < kWellKnown;
+  result.verdict = verdictOf(result, problem.pings.size());
+  return result;
+}
+
+}  // namespace sas_motion::usbl
