@@ -47,9 +47,8 @@ std::optional<std::size_t> FilterHistory<Filter>::insert(const Measurement& z) {
 
 template <class Filter>
 void FilterHistory<Filter>::startWith(Stamp stamp, const Gaussian<kStates>& belief) {
-  if (!start_) start_.emplace();
-  start_->stamp = stamp;
-  start_->belief = typename Filter::Belief{belief};
+  const HeldInput input = start_ ? start_->input : HeldInput{};
+  start_.emplace(stamp, typename Filter::Belief{belief}, input);
   fuseFrom(0);
 }
 
@@ -65,27 +64,25 @@ typename Filter::Belief FilterHistory<Filter>::predicted(const Moment& from, Sta
 
 template <class Filter>
 void FilterHistory<Filter>::fuse(const Moment& from, Entry& entry) const {
-  entry.after.stamp = entry.z.stamp;
-  entry.after.input = from.input;
   if (entry.z.stamp == from.stamp)
-    fuse(from.belief, entry);
+    fuse(from.belief, from.input, entry);
   else
-    fuse(predicted(from, entry.z.stamp), entry);
+    fuse(predicted(from, entry.z.stamp), from.input, entry);
 }
 
 template <class Filter>
-void FilterHistory<Filter>::fuse(const typename Filter::Belief& prior, Entry& entry) const {
+void FilterHistory<Filter>::fuse(const typename Filter::Belief& prior, const HeldInput& input, Entry& entry) const {
   const Measurement& z = entry.z;
   if (z.sensor == Sensor::TurnRate) {
-    entry.after.belief = prior;
-    entry.after.input.take(z);
+    entry.after.emplace(z.stamp, prior, input);
+    entry.after->input.take(z);
     entry.audit = refusal(z, Verdict::Accepted, "");
     return;
   }
   model_.linearize(z, gaussian(prior).mean, [&](const auto& linear) {
     const auto update = entry.filter->update(prior, linear);
     entry.audit = auditOf(z, update);
-    entry.after.belief = update.belief;
+    entry.after.emplace(z.stamp, update.belief, input);
   });
 }
 

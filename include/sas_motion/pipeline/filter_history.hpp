@@ -22,15 +22,17 @@ template <class Filter>
 class FilterHistory {
  public:
   struct Moment {
-    Stamp stamp = 0;
+    Stamp stamp;
     typename Filter::Belief belief;
     HeldInput input;  ///< the turn rate in force from then on
+
+    Moment(Stamp when, const typename Filter::Belief& what, const HeldInput& in_force) : stamp(when), belief(what), input(in_force) {}
   };
   struct Entry {
     Measurement z;
     std::shared_ptr<const Filter> filter;  ///< the one in force when it came
-    Moment after = {};
-    Audit audit = {};
+    std::optional<Moment> after;           ///< nothing before it is fused
+    Audit audit;
 
     Entry(const Measurement& measurement, std::shared_ptr<const Filter> in_force) : z(measurement), filter(std::move(in_force)) {}
   };
@@ -62,10 +64,10 @@ class FilterHistory {
   void dropFront() { entries_.pop_front(); }
 
  private:
-  const Moment& before(std::size_t index) const { return index == 0 ? *start_ : entries_[index - 1].after; }
+  const Moment& before(std::size_t index) const { return index == 0 ? *start_ : *entries_[index - 1].after; }
   typename Filter::Belief predicted(const Moment& from, Stamp stamp) const;
   void fuse(const Moment& from, Entry& entry) const;
-  void fuse(const typename Filter::Belief& prior, Entry& entry) const;
+  void fuse(const typename Filter::Belief& prior, const HeldInput& input, Entry& entry) const;
 
   Model model_;
   Motion motion_;
