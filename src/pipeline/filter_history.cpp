@@ -46,9 +46,9 @@ std::optional<std::size_t> FilterHistory<Filter>::insert(const Measurement& z) {
 }
 
 template <class Filter>
-void FilterHistory<Filter>::startWith(Stamp stamp, const Gaussian<kStates>& belief) {
+void FilterHistory<Filter>::startWith(Stamp stamp, const typename Filter::Belief& belief) {
   const HeldInput input = start_ ? start_->input : HeldInput{};
-  start_.emplace(stamp, typename Filter::Belief{belief}, input);
+  start_.emplace(stamp, belief, input);
   fuseFrom(0);
 }
 

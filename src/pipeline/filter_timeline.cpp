@@ -78,7 +78,7 @@ void FilterTimeline<Filter>::start() {
     if (entry.z.stamp <= end) window.push_back(entry.z);
   const auto belief = startingBelief(first, window, config_.start, config_.model.current_sigma);
   if (!belief) return;
-  history_.startWith(first, *belief);
+  history_.startWith(first, typename Filter::Belief{*belief});
   start_stamp_ = end;
 }
 
@@ -131,7 +131,7 @@ const char* FilterTimeline<Filter>::setState(const Estimate& state, Output& outp
   start_settled_ = true;
   if (history_.started()) settle(state.stamp, output);
   while (!history_.entries().empty() && history_.entries().front().z.stamp <= state.stamp) giveUpFront(output);
-  history_.startWith(state.stamp, state.belief);
+  history_.startWith(state.stamp, typename Filter::Belief{state.belief});
   settled_ = state.stamp;
   return nullptr;
 }

@@ -50,7 +50,7 @@ class FilterHistory {
   Gaussian<kStates> at(Stamp stamp) const;
 
   /// Begins with a belief at a stamp before all entries, and fuses them; the turn rate in force stays.
-  void startWith(Stamp stamp, const Gaussian<kStates>& belief);
+  void startWith(Stamp stamp, const typename Filter::Belief& belief);
   void forgetStart() { start_.reset(); }
   void forget();
 
