@@ -97,6 +97,7 @@ Named<double> towfishBound(const Scenario& scenario, double skip, const std::vec
   if (scenario.kind != Scenario::Kind::RandomWalk) return {};
   const Told told = toldOf(scenario);
   std::vector<SimulatedRun> runs;
+  runs.reserve(seeds.size());
   for (const auto seed : seeds) runs.emplace_back(scenario, seed);
   const bool once = std::all_of(runs.begin(), runs.end(), [&](const SimulatedRun& run) { return told.alike(runs.front(), run); });
   const RunBound bound(scenario, told, runs);

@@ -77,7 +77,7 @@ class PosteriorBound {
   /// [U, 0; -W F, W] eliminates the old state; the last block R22 has R22^T R22 = D22 - D21 (J + D11)^{-1} D12.
   void stepByQr(const std::vector<Transition<N>>& truths, double factor) {
     const Eigen::Index count = static_cast<Eigen::Index>(truths.size());
-    Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(N * (count + 1), 2 * N);
+    Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(N * (count + 1), Eigen::Index{2} * N);
     const Eigen::SelfAdjointEigenSolver<Matrix<N>> eigen(J_);
     stacked.template topLeftCorner<N, N>() = eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
     const double share = std::sqrt(factor / static_cast<double>(count));

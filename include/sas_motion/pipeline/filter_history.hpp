@@ -49,7 +49,7 @@ class FilterHistory {
   /// The state at a stamp from the start on, by the motion since the entry before it.
   Gaussian<kStates> at(Stamp stamp) const;
 
-  /// Begins with a belief at a stamp before all entries, and fuses them; the turn rate in force stays.
+  /// Begins with a belief at a stamp that no entry is before, and fuses the entries; the turn rate in force stays.
   void startWith(Stamp stamp, const typename Filter::Belief& belief);
   void forgetStart() { start_.reset(); }
   void forget();
