@@ -166,7 +166,7 @@ def test_a_killed_dask_worker_changes_nothing(reference, tmp_path, monkeypatch):
 
 def test_a_killed_dask_worker_changes_nothing_of_a_real_campaign(tmp_path):
     # GIVEN a small campaign of the towfish, run undisturbed
-    runs, worker = 60, ('--worker', toolbox.TOOLS / 'run_campaign')
+    runs, worker = 40, ('--worker', toolbox.TOOLS / 'run_campaign')
     front.write_suite(tmp_path, runs=runs, campaigns=[{'name': 'towfish', 'scenario': str(toolbox.SCENARIOS / 'random_walk_asynchronous.yaml'),
                                                        'estimators': ['kf', 'bank_kf'], 'laws': front.LAWS[:1]}])
     front.succeed(tmp_path, 'reference', *worker)
