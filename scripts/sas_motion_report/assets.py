@@ -5,6 +5,7 @@ import base64
 import gzip
 import json
 import os
+from string import Template
 
 from . import ReportError
 
@@ -13,6 +14,11 @@ def asset(name, folder=os.path.dirname(os.path.abspath(__file__))):
     """Returns the text of a file beside this one, or of another folder."""
     with open(os.path.join(folder, name), encoding='utf-8') as file:
         return file.read()
+
+
+def page(title, body, data, style, script):
+    """Returns the page of a report: what is shown, and the data, style and script that it carries beside plotly.js."""
+    return Template(asset('frame.html')).substitute(title=title, body=body, data=data_text(data), style=style, script=script, plotly=packed_plotly())
 
 
 def data_text(data):

@@ -5,7 +5,7 @@ from html import escape
 from string import Template
 
 from . import ReportError, tables
-from .assets import asset, data_text, packed_plotly
+from .assets import asset, page
 from .columns import quantity
 from .figures import figure_data
 from .headline import headline
@@ -23,11 +23,10 @@ def render(metrics, series):
     try:
         data = figure_data(metrics, series)
         parts = {**texts(metrics), **sections(metrics, data)}
-        parts['data'] = data_text(data)
+        script = asset('plotting.js') + asset('figures.js') + asset('page.js')
+        return page(f'{parts["bag"]}: motion estimates against truth', Template(asset('body.html')).substitute(parts), data, asset('style.css'), script)
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         raise ReportError(f'metrics.json or series.json has not the form of docs/metrics.schema.json ({error}); run evaluate.py on the bag again') from None
-    parts.update(style=asset('style.css'), script=asset('plotting.js') + asset('figures.js') + asset('page.js'), plotly=packed_plotly())
-    return Template(asset('template.html')).substitute(parts)
 
 
 def texts(metrics):

@@ -219,13 +219,12 @@ class ConstantVelocitySystem final : public System {
   std::vector<Law> noise_;
 };
 
-/// Linear, so one truth does for what is linearised; where a genie speaks, the bound is averaged over what it says of each seed.
+/// Linear, so one truth does for what is linearised.
 Named<double> ConstantVelocitySystem::bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const {
   const MeasurementInformation position(noise_[law].position), velocity(noise_[law].velocity);
   const auto process = processInformation(noise_[law].process, kStates, model_.step);
   const auto step = model_.transition(State::Zero());
-  double position_square = 0, velocity_square = 0;
-  std::size_t count = 0;
+  MeanBound<kStates> mean;
   for (const auto seed : seeds) {
     PosteriorBound<kStates> bound(Matrix<kStates>::Identity());
     for (const auto& epoch : simulate(model_, noise_[law], duration, seed)) {
@@ -236,16 +235,10 @@ Named<double> ConstantVelocitySystem::bound(std::size_t law, const std::vector<s
       for (int row = 0; row < kRows; ++row)
         factor(row) = std::isinf(epoch.variance(row)) ? 0 : (row < 3 ? position : velocity).of(epoch.variance(row), epoch.time);
       bound.measurement<kRows>({model_.measurement(State::Zero().head<kRows>(), State::Zero(), epoch.time)}, {factor});
-      if (epoch.time <= skip) continue;
-      const auto P = bound.covariance();
-      if (!P) return {};
-      const Vector<kStates> variance = P->diagonal();
-      position_square += variance.head<3>().sum();
-      velocity_square += variance.tail<3>().sum();
-      ++count;
+      if (epoch.time > skip) mean.add(bound);
     }
   }
-  return {{"position", std::sqrt(position_square / static_cast<double>(count))}, {"velocity", std::sqrt(velocity_square / static_cast<double>(count))}};
+  return boundsOf<kStates>(mean, {{"position", {0, 1, 2}}, {"velocity", {3, 4, 5}}});
 }
 
 }  // namespace

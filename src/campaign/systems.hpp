@@ -4,12 +4,28 @@
 
 #include "sas_motion/campaign/system.hpp"
 #include "sas_motion/campaign/towfish_campaign.hpp"
+#include "sas_motion/evaluation/bounds.hpp"
 
 namespace sas_motion {
 
 /// The systems of a suite, each read from its campaign. Throw ConfigError.
 std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::string& folder, const towfish::EstimatorFactory& make);
 std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign);
+
+/// The bound of each group of states, by its name; empty where one is not known at all.
+template <int N>
+Named<double> boundsOf(const MeanBound<N>& mean, const Named<std::vector<int>>& groups) {
+  Named<double> bounds;
+  for (const auto& [name, states] : groups) {
+    const auto rmse = mean.rmse(states);
+    if (!rmse) return {};
+    bounds.emplace_back(name, *rmse);
+  }
+  return bounds;
+}
+
+/// The bound of the towfish's groups under a scenario, see System::bound().
+Named<double> towfishBound(const towfish::Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds);
 
 /// How a law is named and plotted.
 LawInfo lawInfo(const std::string& name, const NoiseMix& measurement, const NoiseMix& process);

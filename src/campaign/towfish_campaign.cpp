@@ -4,22 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
-#include "sas_motion/evaluation/law_aware.hpp"
+#include "sas_motion/campaign/yardsticks.hpp"
 #include "sas_motion/io/cpu_time.hpp"
-#include "sas_motion/pipeline/filter_timeline.hpp"
 
 namespace sas_motion::towfish {
 namespace {
-
-constexpr std::array<Sensor, 3> kNoisy{Sensor::Position, Sensor::Heading, Sensor::Speed};
-
-Measurement toldTheTruth(LabelledMeasurement labelled) {
-  for (int row = 0; row < 2; ++row) labelled.z.variance(row) *= labelled.variance[static_cast<std::size_t>(row)];
-  return labelled.z;
-}
 
 CampaignLaw readLaw(YamlSection& yaml) {
   CampaignLaw law;
@@ -34,24 +25,11 @@ CampaignLaw readLaw(YamlSection& yaml) {
   return law;
 }
 
-/// Updates a second of the fastest sensor.
-double fastestRate(const Scenario& scenario) {
-  double rate = 1 / scenario.duration;
-  for (const auto sensor : kNoisy) rate = std::max(rate, scenario.sensor(sensor).rate);
-  return rate;
-}
-
-/// The law-aware reference: told the position's law for all sensors, and which rows have its spells.
-std::unique_ptr<Estimator> makeBayesReference(const Campaign& campaign, const Scenario& scenario) {
-  const auto& law = scenario.sensor(Sensor::Position).noise;
-  auto options = lawAware(law, scenario.process, 1 / fastestRate(scenario));
-  options.mode.common = true;
-  options.mode.rows = 0;
-  for (const auto sensor : kNoisy)
-    if (scenario.sensor(sensor).noise.name() == law.name())
-      for (int row = 0; row < rowsOf(sensor); ++row) options.mode.rows |= 1U << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));
-  using Filter = GaussianSumFilter<kStates>;
-  return std::make_unique<FilterTimeline<Filter>>([options](const Config&) { return Filter(options); }, campaign.config);
+std::unique_ptr<Estimator> makeNamed(const std::string& name, const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run,
+                                     const EstimatorFactory& make) {
+  if (name == kOracle) return makeOracle(campaign, run);
+  if (name == kBayesReference) return makeBayesReference(campaign, scenario);
+  return make(name, campaign.config);
 }
 
 }  // namespace
@@ -97,26 +75,27 @@ Scenario Campaign::scenarioUnder(const CampaignLaw& law) const {
   return changed;
 }
 
-Output estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
-                double& seconds) {
+double estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
+                const Listener& listen) {
+  constexpr std::size_t kPart = 256;  // measurements
   const bool oracle = name == kOracle;
-  const auto estimator = name == kBayesReference ? makeBayesReference(campaign, scenario) : make(oracle ? "kf" : name, campaign.config);
+  const auto estimator = makeNamed(name, campaign, scenario, run, make);
   Output output;
-  const double begin = cpuSeconds();
-  for (const auto& labelled : run.measurements()) estimator->process(oracle ? toldTheTruth(labelled) : labelled.z, output);
+  double seconds = 0, begin = cpuSeconds();
+  const auto handOver = [&] {
+    seconds += cpuSeconds() - begin;
+    listen(output);
+    output.clear();
+    begin = cpuSeconds();
+  };
+  std::size_t taken = 0;
+  for (const auto& labelled : run.measurements()) {
+    estimator->process(oracle ? toldTheTruth(labelled) : labelled.z, output);
+    if (++taken % kPart == 0) handOver();
+  }
   estimator->finish(output);
-  seconds = cpuSeconds() - begin;
-  return output;
-}
-
-Scores score(const Campaign& campaign, const SimulatedRun& run, const Output& output) {
-  const Stamp from = Simulator::kStart + stampFromSeconds(campaign.skip);
-  Scorer scorer;
-  for (const auto& estimate : output.estimates)
-    if (estimate.stamp >= from) scorer.add(estimate, run.at(estimate.stamp));
-  for (const auto& audit : output.audits)
-    if (audit.stamp >= from) scorer.add(audit, run.outlier(audit));
-  return scorer.scores();
+  handOver();
+  return seconds;
 }
 
 }  // namespace sas_motion::towfish

@@ -2,49 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/pipeline/filter_timeline.hpp"
 
-#include <algorithm>
-
-#include "sas_motion/filters/bank_kalman_filter.hpp"
-#include "sas_motion/filters/calibrated_filter.hpp"
-#include "sas_motion/filters/gaussian_sum_filter.hpp"
-#include "sas_motion/filters/kalman_filter.hpp"
-#include "sas_motion/filters/mixture_kalman_filter.hpp"
-#include "sas_motion/filters/reacquiring_filter.hpp"
+#include "instantiate.hpp"
 #include "sas_motion/models/towfish_start.hpp"
 
 namespace sas_motion::towfish {
 namespace {
 
-
-template <class Belief, int M>
-Audit auditOf(const Measurement& z, const Update<Belief, M>& update) {
-  Audit audit;
-  audit.stamp = z.stamp;
-  audit.sensor = z.sensor;
-  audit.rows = M;
-  audit.innovation.template head<M>() = update.innovation;
-  audit.S.template topLeftCorner<M, M>() = update.S;
-  audit.nis = update.nis;
-  audit.weights.template head<M>() = update.weights;
-  audit.iterations = update.iterations;
-  audit.verdict = update.verdict;
-  audit.hypotheses = hypothesisWeights(update.belief);
-  if (update.verdict == Verdict::Invalid) audit.reason = "numerically singular";
-  if (update.verdict == Verdict::Rejected) audit.reason = "outside the gate";
-  if (update.verdict == Verdict::DownWeighted) audit.reason = "residual too large for its noise";
-  return audit;
+Motion motionOf(const Model& model) {
+  return [model](const StateVector& mean, const Input& input, Stamp from, Stamp to) { return model.transition(mean, input, secondsBetween(from, to)); };
 }
 
 }  // namespace
 
 template <class Filter>
-FilterTimeline<Filter>::FilterTimeline(Make make, const Config& config)
+FilterTimeline<Filter>::FilterTimeline(Make make, const Config& config) : FilterTimeline(std::move(make), config, motionOf(Model(config.model))) {}
+
+template <class Filter>
+FilterTimeline<Filter>::FilterTimeline(Make make, const Config& config, Motion motion)
     : make_(std::move(make)),
       config_(config),
-      model_(config.model),
-      filter_(std::make_shared<const Filter>(make_(config))),
       clock_(config.max_gap, config.lag),
-      start_window_(config.start.window) {}
+      history_(Model(config.model), std::move(motion)),
+      start_window_(config.start.window) {
+  configure(config);
+}
 
 template <class Filter>
 void FilterTimeline<Filter>::process(const Measurement& z, Output& output) {
@@ -72,104 +53,68 @@ void FilterTimeline<Filter>::insert(const Measurement& z, Output& output) {
     output.audits.push_back(refusal(z, Verdict::Stale, "older than the lag"));
     return;
   }
-  const auto place = std::lower_bound(entries_.begin(), entries_.end(), z, [](const Entry& a, const Measurement& b) { return before(a.z, b); });
-  if (place != entries_.end() && !before(z, place->z)) {
+  const auto place = history_.insert(z);
+  if (!place) {
     output.audits.push_back(refusal(z, Verdict::Invalid, "duplicate stamp"));
     return;
   }
-  const auto index = static_cast<std::size_t>(place - entries_.begin());
-  entries_.insert(place, Entry{z, filter_, {}, {}});
-
-  const bool decides_start = started() && !start_settled_ && z.stamp <= start_stamp_;
-  if (!started() || decides_start) {
-    anchor_.reset();
-    if (start()) replay(0);
-  } else {
-    replay(index);
-  }
-  settle(entries_.back().z.stamp - stampFromSeconds(config_.lag), output);
+  const bool decides_start = !start_settled_ && z.stamp <= start_stamp_;
+  if (history_.started() && decides_start) history_.forgetStart();
+  if (history_.started())
+    history_.fuseFrom(*place);
+  else
+    start();
+  settle(history_.entries().back().z.stamp - stampFromSeconds(config_.lag), output);
 }
 
 template <class Filter>
-bool FilterTimeline<Filter>::start() {
-  if (entries_.empty()) return false;
-  const Stamp first = entries_.front().z.stamp;
-  const Stamp end = first + stampFromSeconds(start_window_);
-  if (entries_.back().z.stamp < end) return false;
+void FilterTimeline<Filter>::start() {
+  const auto& entries = history_.entries();
+  if (entries.empty()) return;
+  const Stamp first = entries.front().z.stamp, end = first + stampFromSeconds(start_window_);
+  if (entries.back().z.stamp < end) return;
   std::vector<Measurement> window;
-  for (const auto& entry : entries_)
+  for (const auto& entry : entries)
     if (entry.z.stamp <= end) window.push_back(entry.z);
   const auto belief = startingBelief(first, window, config_.start, config_.model.current_sigma);
-  if (!belief) return false;
-  anchor_.emplace();
-  anchor_->stamp = first;
-  anchor_->belief = typename Filter::Belief{*belief};
+  if (!belief) return;
+  history_.startWith(first, typename Filter::Belief{*belief});
   start_stamp_ = end;
-  return true;
-}
-
-template <class Filter>
-void FilterTimeline<Filter>::replay(std::size_t first) {
-  for (std::size_t i = first; i < entries_.size(); ++i) fuse(momentBefore(i), entries_[i]);
-}
-
-template <class Filter>
-typename FilterTimeline<Filter>::Moment FilterTimeline<Filter>::predicted(const Moment& from, Stamp stamp) const {
-  Moment to = from;
-  to.stamp = stamp;
-  if (stamp == from.stamp) return to;
-  const auto transition = model_.transition(gaussian(from.belief).mean, from.input.at(stamp, config_.input_hold), secondsBetween(from.stamp, stamp));
-  to.belief = filter_->predict(from.belief, transition);
-  return to;
-}
-
-template <class Filter>
-void FilterTimeline<Filter>::fuse(const Moment& from, Entry& entry) const {
-  const Measurement& z = entry.z;
-  entry.after = predicted(from, z.stamp);
-  if (z.sensor == Sensor::TurnRate) {
-    entry.after.input.take(z);
-    entry.audit = refusal(z, Verdict::Accepted, "");
-    return;
-  }
-  model_.linearize(z, gaussian(entry.after.belief).mean, [&](const auto& linear) {
-    auto update = entry.filter->update(entry.after.belief, linear);
-    entry.audit = auditOf(z, update);
-    entry.after.belief = update.belief;
-  });
 }
 
 template <class Filter>
 void FilterTimeline<Filter>::settle(Stamp until, Output& output) {
   const Stamp window = stampFromSeconds(start_window_);
-  while (!started() && !entries_.empty() && entries_.front().z.stamp + window <= until) {  // its whole window is here, and does not start
+  const auto& entries = history_.entries();
+  while (!history_.started() && !entries.empty() && entries.front().z.stamp + window <= until) {  // its whole window is here, and does not start
     giveUpFront(output);
-    if (start()) replay(0);
+    start();
   }
-  if (!started() || (!start_settled_ && until < start_stamp_)) return;  // a late measurement can still change the start
-  while (!entries_.empty() && entries_.front().z.stamp <= until) {
-    const Entry& entry = entries_.front();
+  if (!history_.started() || (!start_settled_ && until < start_stamp_)) return;  // a late measurement can still change the start
+  std::size_t count = 0;
+  for (; count < entries.size() && entries[count].z.stamp <= until; ++count) {
+    const Entry& entry = entries[count];
+    const bool last_of_stamp = count + 1 == entries.size() || entries[count + 1].z.stamp != entry.z.stamp;
+    if (entry.audit.rows > 0) output.audits.push_back(entry.audit);
+    if (last_of_stamp) output.estimates.push_back({entry.z.stamp, gaussian(entry.after->belief)});
     settled_ = entry.z.stamp;
     start_settled_ = true;
-    const bool last_of_stamp = entries_.size() == 1 || entries_[1].z.stamp != entry.z.stamp;
-    if (entry.audit.rows > 0) output.audits.push_back(entry.audit);
-    if (last_of_stamp) output.estimates.push_back({entry.z.stamp, gaussian(entry.after.belief)});
-    anchor_ = entry.after;
-    entries_.pop_front();
   }
+  history_.settle(count);
 }
 
 template <class Filter>
 void FilterTimeline<Filter>::giveUpFront(Output& output) {
-  settled_ = entries_.front().z.stamp;
-  output.audits.push_back(refusal(entries_.front().z, Verdict::Stale, "before the first position and heading"));
-  entries_.pop_front();
+  const Measurement& z = history_.entries().front().z;
+  settled_ = z.stamp;
+  output.audits.push_back(refusal(z, Verdict::Stale, "before the first position and heading"));
+  history_.dropFront();
 }
 
 template <class Filter>
 void FilterTimeline<Filter>::settleAll(Output& output) {
-  if (!entries_.empty()) settle(entries_.back().z.stamp, output);
-  while (!entries_.empty()) giveUpFront(output);  // it never started
+  if (!history_.entries().empty()) settle(history_.entries().back().z.stamp, output);
+  while (!history_.entries().empty()) giveUpFront(output);  // it never started
 }
 
 template <class Filter>
@@ -184,34 +129,30 @@ const char* FilterTimeline<Filter>::setState(const Estimate& state, Output& outp
   if (!clock_.believable(state.stamp)) return "the stamp is far from those of the measurements";
   clock_.believe(state.stamp);
   start_settled_ = true;
-  if (started()) settle(state.stamp, output);
-  while (!entries_.empty() && entries_.front().z.stamp <= state.stamp) giveUpFront(output);
-  if (!started()) anchor_.emplace();
-  anchor_->stamp = state.stamp;  // the turn rate in force stays
-  anchor_->belief = typename Filter::Belief{state.belief};
+  if (history_.started()) settle(state.stamp, output);
+  while (!history_.entries().empty() && history_.entries().front().z.stamp <= state.stamp) giveUpFront(output);
+  history_.startWith(state.stamp, typename Filter::Belief{state.belief});
   settled_ = state.stamp;
-  replay(0);
   return nullptr;
 }
 
 template <class Filter>
 void FilterTimeline<Filter>::configure(const Config& config) {
   config_ = config;
-  filter_ = std::make_shared<const Filter>(make_(config));
+  history_.use(std::make_shared<const Filter>(make_(config)), config.input_hold);
 }
 
 template <class Filter>
 std::optional<Estimate> FilterTimeline<Filter>::current() const {
-  if (!started()) return std::nullopt;
-  const Moment& newest = momentBefore(entries_.size());
+  if (!history_.started()) return std::nullopt;
+  const auto& newest = history_.newest();
   return Estimate{newest.stamp, gaussian(newest.belief)};
 }
 
 template <class Filter>
 std::optional<Estimate> FilterTimeline<Filter>::at(Stamp stamp) const {
-  if (!started() || stamp < anchor_->stamp) return std::nullopt;
-  const auto after = std::upper_bound(entries_.begin(), entries_.end(), stamp, [](Stamp s, const Entry& entry) { return s < entry.z.stamp; });
-  return Estimate{stamp, gaussian(predicted(momentBefore(static_cast<std::size_t>(after - entries_.begin())), stamp).belief)};
+  if (!history_.started() || stamp < history_.startStamp()) return std::nullopt;
+  return Estimate{stamp, history_.at(stamp)};
 }
 
 template <class Filter>
@@ -223,18 +164,11 @@ void FilterTimeline<Filter>::reset() {
 
 template <class Filter>
 void FilterTimeline<Filter>::forget() {
-  entries_.clear();
-  anchor_.reset();
+  history_.forget();
   settled_.reset();
   start_settled_ = false;
 }
 
-template class FilterTimeline<BankKalmanFilter<kStates>>;
-template class FilterTimeline<GaussianSumFilter<kStates>>;
-template class FilterTimeline<KalmanFilter<kStates>>;
-template class FilterTimeline<ReacquiringFilter<GatedKalmanFilter<kStates>, kStates>>;
-template class FilterTimeline<ReacquiringFilter<MixtureKalmanFilter<kStates>, kStates>>;
-template class FilterTimeline<ReacquiringFilter<CalibratedFilter<RobustKalmanFilter<kStates>, kStates>, kStates>>;
-template class FilterTimeline<ReacquiringFilter<CalibratedFilter<StudentTKalmanFilter<kStates>, kStates>, kStates>>;
+SAS_MOTION_FOR_FILTERS(FilterTimeline)
 
 }  // namespace sas_motion::towfish

@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/simulation/process_noise.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <stdexcept>
 
 namespace sas_motion {
 
 ProcessNoise::ProcessNoise(const NoiseMix& mix, int states, std::uint64_t seed, std::uint64_t stream) {
+  if (states > kMostStates) throw std::invalid_argument(fmt::format("ProcessNoise: states is {} but must be at most {}", states, kMostStates));
   NoiseMix own;
   for (const auto& law : mix.laws)
     if (law.kind == NoiseLaw::Kind::Manoeuvre || law.epoch > 0)
@@ -28,8 +32,9 @@ ProcessNoise::Draw ProcessNoise::draw(double time) {
   for (auto& common : common_)
     if (common.on(time, time - last_time_)) sigma *= common.law.K;
   last_time_ = time;
-  Draw draw{Eigen::VectorXd(states_.size()), Eigen::VectorXd(states_.size())};
-  for (Eigen::Index i = 0; i < draw.value.size(); ++i) {
+  const auto states = static_cast<Eigen::Index>(states_.size());
+  Draw draw{Values(states), Values(states)};
+  for (Eigen::Index i = 0; i < states; ++i) {
     const NoiseSample sample = states_[static_cast<std::size_t>(i)].draw(time);
     draw.value(i) = sigma * sample.value;
     draw.variance(i) = sigma * sigma * sample.variance;

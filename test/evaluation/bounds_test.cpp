@@ -142,5 +142,16 @@ TEST(PosteriorBound, IsReachedByTheKalmanFilterOnGaussianNoise) {
   EXPECT_NEAR(squares / bounds, 1, 0.02);
 }
 
+TEST(MeanBound, AveragesWhatTheErrorsMayBeNotWhatIsKnown) {
+  MeanBound<2> mean;
+  EXPECT_FALSE(mean.rmse({0}));
+  mean.add(PosteriorBound<2>((Matrix<2>() << 1, 0, 0, 4).finished()));
+  mean.add(PosteriorBound<2>((Matrix<2>() << 0.25, 0, 0, 1).finished()));
+  EXPECT_NEAR(*mean.rmse({0}), std::sqrt((1 + 4) / 2.0), 1e-15);  // the mean information would say sqrt(1.6)
+  EXPECT_NEAR(*mean.rmse({0, 1}), std::sqrt((1 + 4) / 2.0 + (0.25 + 1) / 2), 1e-15);
+  mean.add(PosteriorBound<2>(Matrix<2>::Zero()));
+  EXPECT_FALSE(mean.rmse({0})) << "a state that is not known at all has no bound";
+}
+
 }  // namespace
 }  // namespace sas_motion

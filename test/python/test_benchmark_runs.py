@@ -12,6 +12,7 @@ import time
 
 import campaign_front as front
 import pytest
+import toolbox
 
 sys.path.insert(0, str(front.ROOT / 'scripts'))
 
@@ -141,27 +142,38 @@ def test_a_killed_run_campaign_runs_again(scheduler, reference, tmp_path):
     assert front.outputs(tmp_path, 'out') == front.outputs(reference, 'out')
 
 
-def test_a_killed_dask_worker_changes_nothing(reference, tmp_path):
-    # GIVEN a cluster of two workers that a front uses by its address
+def lose_a_worker(folder, *arguments):
+    """Runs the front on a cluster of two workers, of which one is killed in the middle; returns how many runs were saved then."""
     distributed = pytest.importorskip('distributed')
-    os.environ['STUB_DELAY'] = '0.03'
-    try:
-        cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=str(tmp_path / 'dask'),
-                                           silence_logs=50)
-    finally:
-        del os.environ['STUB_DELAY']
+    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=str(folder / 'dask'),
+                                       silence_logs=50)
     with cluster, distributed.Client(cluster) as client:
-        process = start(tmp_path, '--scheduler', cluster.scheduler_address)
-        wait_for(lambda: len(partial(tmp_path)) > 5)
-        # WHEN one is killed in the middle
+        process = start(folder, '--scheduler', cluster.scheduler_address, *arguments)
+        wait_for(lambda: len(partial(folder)) > 5)
         pids = client.run(os.getpid)
         os.kill(sorted(pids.values())[0], signal.SIGKILL)
-        before = len(partial(tmp_path))
+        before = len(partial(folder))
         _, stderr = process.communicate(timeout=90)
-        # THEN its chunks run again and the bytes are the same
         assert process.returncode == 0, stderr
-        assert before < 60
+    return before
+
+
+def test_a_killed_dask_worker_changes_nothing(reference, tmp_path, monkeypatch):
+    monkeypatch.setenv('STUB_DELAY', '0.03')
+    assert lose_a_worker(tmp_path) < 60
     assert front.outputs(tmp_path, 'out') == front.outputs(reference, 'out')
+
+
+def test_a_killed_dask_worker_changes_nothing_of_a_real_campaign(tmp_path):
+    # GIVEN a small campaign of the towfish, run undisturbed
+    runs, worker = 40, ('--worker', toolbox.TOOLS / 'run_campaign')
+    front.write_suite(tmp_path, runs=runs, campaigns=[{'name': 'towfish', 'scenario': str(toolbox.SCENARIOS / 'random_walk_asynchronous.yaml'),
+                                                       'estimators': ['kf', 'bank_kf'], 'laws': front.LAWS[:1]}])
+    front.succeed(tmp_path, 'reference', *worker)
+    # WHEN a Dask worker is killed while it runs again
+    assert lose_a_worker(tmp_path, *worker) < runs
+    # THEN the bytes are the same
+    assert front.outputs(tmp_path, 'out') == front.outputs(tmp_path, 'reference')
 
 
 def test_a_failing_task_is_told_in_its_own_words(tmp_path):

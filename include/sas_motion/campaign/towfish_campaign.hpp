@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,6 +13,9 @@
 #include "sas_motion/evaluation/simulated_run.hpp"
 
 namespace sas_motion::towfish {
+
+/// The sensors whose noise a law may change.
+constexpr std::array<Sensor, 3> kNoisy{Sensor::Position, Sensor::Heading, Sensor::Speed};
 
 /// One law of a campaign: the noise that position, heading and speed get; what is not there stays as in the scenario.
 struct CampaignLaw {
@@ -36,16 +40,16 @@ struct Campaign {
 
 using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string& name, const Config& config)>;
 
-/// The name of the reference that is told each row's true variance: a Kalman filter.
+/// The name of the reference that is told the true variance of each row and of each draw of process noise: a Kalman filter.
 constexpr const char* kOracle = "oracle_kf";
 /// The name of the reference that is told the law of the noise, but not which readings are bad: a Gaussian sum.
 constexpr const char* kBayesReference = "bayes_reference";
 
-/// Lets an estimator work on a run under `scenario`; `seconds` is the CPU time it took.
-Output estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
-                double& seconds);
+/// Takes what an estimator says of a run, part by part: a whole run of every estimator would not stay in the cache.
+using Listener = std::function<void(const Output&)>;
 
-/// The scores of what an estimator said of a run, without its start.
-Scores score(const Campaign& campaign, const SimulatedRun& run, const Output& output);
+/// Lets an estimator work on a run under `scenario`; returns the CPU time that it took, without the listener's [s].
+double estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
+                const Listener& listen);
 
 }  // namespace sas_motion::towfish

@@ -77,7 +77,7 @@ class PosteriorBound {
   /// [U, 0; -W F, W] eliminates the old state; the last block R22 has R22^T R22 = D22 - D21 (J + D11)^{-1} D12.
   void stepByQr(const std::vector<Transition<N>>& truths, double factor) {
     const Eigen::Index count = static_cast<Eigen::Index>(truths.size());
-    Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(N * (count + 1), 2 * N);
+    Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(N * (count + 1), Eigen::Index{2} * N);
     const Eigen::SelfAdjointEigenSolver<Matrix<N>> eigen(J_);
     stacked.template topLeftCorner<N, N>() = eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
     const double share = std::sqrt(factor / static_cast<double>(count));
@@ -94,6 +94,34 @@ class PosteriorBound {
   }
 
   Matrix<N> J_;
+};
+
+/// Means of the bound over the scored times of runs whose genies say different things, or that lack different readings.
+///
+/// Given what is told in a run, J^{-1} bounds the mean square error of all runs that are told the same (J with expectations over truths), so
+/// the mean of J^{-1} over runs bounds that of all runs. The inverse of the mean J is a bound too, but a lower one: (E J)^{-1} <= E J^{-1}.
+template <int N>
+class MeanBound {
+ public:
+  /// At one scored time of one run.
+  void add(const PosteriorBound<N>& bound) {
+    const auto covariance = bound.covariance();
+    known_ &= covariance.has_value();
+    if (covariance) sum_ += covariance->diagonal();
+    ++count_;
+  }
+
+  /// The bound on the root mean square of the norm of these states' errors; nothing while one was not known at all.
+  std::optional<double> rmse(const std::vector<int>& states) const {
+    double square = 0;
+    for (const int state : states) square += sum_(state) / static_cast<double>(count_);
+    return known_ && count_ > 0 ? std::optional<double>(std::sqrt(square)) : std::nullopt;
+  }
+
+ private:
+  Vector<N> sum_ = Vector<N>::Zero();
+  std::size_t count_ = 0;
+  bool known_ = true;
 };
 
 }  // namespace sas_motion

@@ -13,8 +13,8 @@ namespace sas_motion {
 /// correlated part and the present sigma are. The bound is then lower than what can be reached. Missing readings count nothing either, but
 /// that is no secret.
 ///
-/// What a genie says differs from run to run: bound each run on its own and average the covariances. Averaging the information of all runs
-/// in each step gives a bound too, but a lower one (by 13 % where one second in twenty has ten times the process noise).
+/// What a genie says differs from run to run: see MeanBound. (Averaging the information of all runs in each step instead is lower by 13 %
+/// where one second in twenty has ten times the process noise.)
 class MeasurementInformation {
  public:
   /// Throws std::invalid_argument for two multipath laws in one list.

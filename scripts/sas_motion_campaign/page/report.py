@@ -6,7 +6,7 @@ from html import escape
 from string import Template
 
 from sas_motion_report import ReportError
-from sas_motion_report.assets import asset, data_text, packed, packed_plotly
+from sas_motion_report.assets import asset, data_text, packed, page
 from sas_motion_report.columns import quantity
 from sas_motion_report.files import write_atomically
 from sas_motion_report.report import figure, section
@@ -37,15 +37,16 @@ def write_report(path, summary, costs, trace):
 def render(summary, costs, trace):
     """Returns the page as text."""
     try:
+        data = page_data(summary, costs)
         panels = [panel(name, campaign, costs.get(name, {}), i) for i, (name, campaign) in enumerate(summary['campaigns'].items())]
         parts = {'suite': escape(summary['suite']), 'facts': escape(facts(summary)), 'panels': ''.join(panels),
-                 'tabs': ''.join(tab(name, i) for i, name in enumerate(summary['campaigns'])), 'data': data_text(page_data(summary, costs)),
+                 'tabs': ''.join(tab(name, i) for i, name in enumerate(summary['campaigns'])),
                  'over_laws': plots(OVER_LAWS), 'of_a_run': plots(OF_A_RUN), 'traces': packed(data_text(trace_data(trace)))}
+        body = Template(asset('body.html', HERE)).substitute(parts)
+        script = asset('plotting.js') + ''.join(asset(name, HERE) for name in ('law_plots.js', 'run_plots.js', 'tabs.js', 'page.js'))
+        return page(f'{parts["suite"]}: estimators against what is possible', body, data, asset('style.css') + asset('campaign.css', HERE), script)
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise ReportError(f'report.html cannot be written: what run_campaign printed lacks or mistypes {error}; build it and benchmark from the same source') from None
-    parts.update(style=asset('style.css') + asset('campaign.css', HERE), plotly=packed_plotly(),
-                 script=asset('plotting.js') + ''.join(asset(name, HERE) for name in ('law_plots.js', 'run_plots.js', 'tabs.js', 'page.js')))
-    return Template(asset('template.html', HERE)).substitute(parts)
 
 
 def facts(summary):
