@@ -40,6 +40,7 @@ class BankJudgement {
 
  private:
   static constexpr std::size_t kHypotheses = Belief::kHypotheses;
+  static constexpr double kPriorReadings = 50;   // that the options' probabilities of the scales are worth
   static constexpr double kFade = 0.5;           // an epoch: stickiness beyond the longest burst
   static constexpr double kSmallestShare = 0.1;  // of a scale's own probability: nothing is ever ruled out
   static constexpr int kRowsPerSource = 8;
@@ -49,7 +50,7 @@ class BankJudgement {
     for (std::size_t c = 0; c < belief_.channels.size(); ++c) {
       auto& learned = belief_.channels[c];
       if (learned.key != key && learned.key >= 0) continue;
-      if (learned.key < 0) learned = {key, z_.time, kBankPriorCount, options_.probabilities};
+      if (learned.key < 0) learned = {key, z_.time, kPriorReadings, options_.probabilities};
       return c;
     }
     return belief_.channels.size() - 1;  // more channels than places: the last ones share one

@@ -17,6 +17,7 @@
 namespace sas_motion {
 namespace {
 
+constexpr double kPriorEpochs = 15;                   // that the option's jump probability is worth: less than one jump's
 constexpr double kFewestJumps = 0.1, kMostJumps = 5;  // of the jump probability
 
 void require(bool holds, const char* key, double value, const char* must) {
@@ -46,7 +47,7 @@ template <int N>
 void BankKalmanFilter<N>::start(Belief& belief) const {
   belief.started = true;
   belief.jump_probability = options_.jump_probability;
-  belief.epochs = kBankPriorCount;
+  belief.epochs = kPriorEpochs;
   for (auto& h : belief.hypotheses) {
     h.weight = kBankLeastWeight;
     h.covariance = belief.summary.covariance;

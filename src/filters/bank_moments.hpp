@@ -7,7 +7,6 @@
 
 namespace sas_motion {
 
-constexpr double kBankPriorCount = 50;      // readings or epochs that the options' probabilities are worth
 constexpr double kBankMemory = 300;         // readings or epochs after which old ones are forgotten
 constexpr double kBankLeastWeight = 1e-30;  // a hypothesis can always come back
 

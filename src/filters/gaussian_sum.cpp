@@ -63,7 +63,7 @@ void GaussianBlock<N>::reduce(std::size_t count, double merge) {
       if (taken[i] || h.biased != center.biased || h.scale != center.scale) continue;
       const Vector<N> off = h.deviation - center.deviation;
       const double distance = (off.array().square() / variances[heaviest].array()).sum() + (logarithms[i] - logarithms[heaviest]).squaredNorm();
-      if (i != heaviest && distance >= merge) continue;
+      if (i != heaviest && distance >= merge * states.sum()) continue;
       taken[i] = true;
       total += weights[i];
       mean += weights[i] * off;

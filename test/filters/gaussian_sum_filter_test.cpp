@@ -84,7 +84,7 @@ TEST(GaussianSumFilter, MergingKeepsMeanAndCovariance) {
   for (int i = 0; i < 30; ++i) block.hypotheses.push_back({testing::randomMatrix<6>(random), testing::randomCovariance<6>(random), random.gaussian(), 0, 0});
   sum.summarize();
   const auto before = sum.summary;
-  block.reduce(30, 20);
+  block.reduce(30, 4);
   EXPECT_LT(block.hypotheses.size(), 20u);
   sum.summarize();
   EXPECT_LT(relativeDifference(sum.summary.mean, before.mean), 1e-12);

@@ -32,7 +32,7 @@ struct GaussianBlock {
   Matrix<N> own(const Matrix<N>& all) const { return states.asDiagonal() * all * states.asDiagonal(); }
   /// Weights relative to their sum, which they then have as logarithms; weights beyond reach are zero.
   std::vector<double> normalize();
-  /// Merges hypotheses that are closer than `merge` to a heavier one, and keeps the `count` heaviest [Salmond1990].
+  /// Merges hypotheses whose squared distance a state to a heavier one is below `merge`, and keeps the `count` heaviest [Salmond1990].
   void reduce(std::size_t count, double merge);
 };
 

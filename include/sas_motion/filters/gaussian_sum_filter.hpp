@@ -36,7 +36,7 @@ struct GaussianSumOptions {
   BiasMode mode;
   std::size_t hypotheses = 48;  ///< kept after an update
   std::size_t branches = 160;   ///< followed inside an update
-  double merge = 0.1;           ///< distance below which two hypotheses become one [-]
+  double merge = 0.1;  ///< squared distance a state below which two hypotheses become one: in standard deviations, and of the logarithms of variances [-]
 };
 
 template <int N>
