@@ -3,14 +3,29 @@
 #include "sas_motion/filters/gaussian_sum.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "instantiate.hpp"
 
 namespace sas_motion {
+namespace {
+
+/// All pairs of the hypotheses of two blocks.
+template <int N>
+GaussianBlock<N> product(const GaussianBlock<N>& a, const GaussianBlock<N>& b) {
+  GaussianBlock<N> both{a.states + b.states};
+  for (const auto& g : a.hypotheses)
+    for (const auto& h : b.hypotheses)
+      both.hypotheses.push_back(
+          {g.deviation + h.deviation, g.covariance + h.covariance, g.log_weight + h.log_weight, g.biased | h.biased, std::max(g.scale, h.scale)});
+  return both;
+}
+
+}  // namespace
 
 template <int N>
-std::vector<double> GaussianSum<N>::normalize() {
+std::vector<double> GaussianBlock<N>::normalize() {
   double largest = -INFINITY, total = 0;
   for (const auto& h : hypotheses) largest = std::max(largest, h.log_weight);
   std::vector<double> weights;
@@ -24,28 +39,12 @@ std::vector<double> GaussianSum<N>::normalize() {
 }
 
 template <int N>
-void GaussianSum<N>::summarize() {
-  const auto weights = normalize();
-  Vector<N> mean = Vector<N>::Zero();
-  Matrix<N> covariance = Matrix<N>::Zero();
-  for (std::size_t i = 0; i < weights.size(); ++i) mean += weights[i] * hypotheses[i].deviation;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    auto& [deviation, P, log_weight, biased, scale] = hypotheses[i];
-    deviation -= mean;
-    covariance += weights[i] * P;
-    covariance.noalias() += (weights[i] * deviation) * deviation.transpose();
-  }
-  summary.mean += mean;
-  summary.covariance = covariance;
-}
-
-template <int N>
-void GaussianSum<N>::reduce(std::size_t count, double merge) {
+void GaussianBlock<N>::reduce(std::size_t count, double merge) {
   if (hypotheses.size() == 1) return;
   const auto weights = normalize();
   std::vector<Vector<N>> variances, logarithms;
   for (const auto& h : hypotheses) {
-    variances.push_back(h.covariance.diagonal());
+    variances.push_back(h.covariance.diagonal() + (Vector<N>::Ones() - states));  // 1 where there is nothing to compare
     logarithms.push_back(variances.back().array().log());
   }
   std::vector<std::size_t> order(hypotheses.size());
@@ -64,7 +63,7 @@ void GaussianSum<N>::reduce(std::size_t count, double merge) {
       if (taken[i] || h.biased != center.biased || h.scale != center.scale) continue;
       const Vector<N> off = h.deviation - center.deviation;
       const double distance = (off.array().square() / variances[heaviest].array()).sum() + (logarithms[i] - logarithms[heaviest]).squaredNorm();
-      if (i != heaviest && distance >= merge) continue;
+      if (i != heaviest && distance >= merge * states.sum()) continue;
       taken[i] = true;
       total += weights[i];
       mean += weights[i] * off;
@@ -77,7 +76,50 @@ void GaussianSum<N>::reduce(std::size_t count, double merge) {
   hypotheses = std::move(kept);
 }
 
-#define SAS_MOTION_INSTANTIATE(N) template struct GaussianSum<N>;
+template <int N>
+void GaussianSum<N>::start() {
+  if (!blocks.empty()) return;
+  for (int i = 0; i < N; ++i) blocks.push_back({Vector<N>::Unit(i), {Hypothesis<N>{}}});
+  couple(summary.covariance, 1, 0);
+  for (auto& block : blocks) block.hypotheses.front().covariance = block.own(summary.covariance);
+}
+
+template <int N>
+void GaussianSum<N>::couple(const Matrix<N>& coupling, std::size_t count, double merge) {
+  const Matrix<N> either = coupling.cwiseAbs() + coupling.cwiseAbs().transpose();
+  for (std::size_t a = 0; a < blocks.size(); ++a)
+    for (std::size_t b = a + 1; b < blocks.size();) {
+      if (blocks[a].states.dot(either * blocks[b].states) == 0) {
+        ++b;
+        continue;
+      }
+      blocks[a] = product(blocks[a], blocks[b]);
+      blocks[a].reduce(count, merge);
+      blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
+      b = a + 1;  // whom the first alone did not touch
+    }
+}
+
+template <int N>
+void GaussianSum<N>::summarize() {
+  summary.covariance.setZero();
+  for (auto& block : blocks) {
+    const auto weights = block.normalize();
+    Vector<N> mean = Vector<N>::Zero();
+    for (std::size_t i = 0; i < weights.size(); ++i) mean += weights[i] * block.hypotheses[i].deviation;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      auto& h = block.hypotheses[i];
+      h.deviation -= mean;
+      summary.covariance += weights[i] * h.covariance;
+      summary.covariance.noalias() += (weights[i] * h.deviation) * h.deviation.transpose();
+    }
+    summary.mean += mean;
+  }
+}
+
+#define SAS_MOTION_INSTANTIATE(N)   \
+  template struct GaussianBlock<N>; \
+  template struct GaussianSum<N>;
 SAS_MOTION_FOR_STATES(SAS_MOTION_INSTANTIATE)
 #undef SAS_MOTION_INSTANTIATE
 

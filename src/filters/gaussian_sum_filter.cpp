@@ -8,14 +8,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gaussian_sum_row.hpp"
 #include "instantiate.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {
 namespace {
 
-constexpr double kUninformative = 1e6;      // variance of a row with an unknown bias, over the good one
-constexpr double kBeyondReach = 40;       // a branch whose log-weight is so far below the best's is not followed
 constexpr double kEpochTolerance = 1e-4;  // of an epoch: stamps since 1970 are no finer in a double
 
 void requireTerms(const char* what, std::vector<NoiseTerm>& terms) {
@@ -30,22 +29,7 @@ void requireTerms(const char* what, std::vector<NoiseTerm>& terms) {
   terms.erase(std::remove_if(terms.begin(), terms.end(), [](const NoiseTerm& term) { return term.probability == 0; }), terms.end());
 }
 
-/// A Kalman update that one hypothesis could make of one row.
-struct Branch {
-  std::size_t parent;
-  double log_weight, innovation, S, variance;
-  bool biased;
-};
-
 }  // namespace
-
-/// One row of a measurement, about the summary's mean before any row was fused.
-template <int N>
-struct GaussianSumFilter<N>::Row {
-  Vector<N> h;
-  double innovation, r, time;
-  std::uint32_t channel;
-};
 
 template <int N>
 GaussianSumFilter<N>::GaussianSumFilter(const GaussianSumOptions& options) : options_(options) {
@@ -61,91 +45,57 @@ GaussianSumFilter<N>::GaussianSumFilter(const GaussianSumOptions& options) : opt
 
 template <int N>
 GaussianSum<N> GaussianSumFilter<N>::predict(const Belief& belief, const Transition<N>& transition) const {
-  Belief next = belief;
-  if (next.hypotheses.empty()) next.hypotheses.push_back({Vector<N>::Zero(), belief.summary.covariance, 0, 0, 0});
   const auto& terms = options_.process;
+  Belief next = belief;
+  next.start();
+  const Matrix<N> coupling = transition.F.cwiseAbs() + transition.Q.cwiseAbs();
+  next.couple(terms.size() > 1 ? Matrix<N>::Ones() : coupling, options_.hypotheses, options_.merge);  // all states share a scale
   if (belief.epoch_over && terms.size() > 1 && !transition.Q.isZero(0)) {
-    std::vector<Hypothesis<N>> branches;
-    for (const auto& h : next.hypotheses)
-      for (std::size_t i = 0; i < terms.size(); ++i) {
-        branches.push_back(h);
-        branches.back().scale = i;
-        branches.back().log_weight += std::log((1 - options_.persistence) * terms[i].probability + (h.scale == i ? options_.persistence : 0));
-      }
-    next.hypotheses = std::move(branches);
+    branch(next.blocks.front());
     next.epoch_over = false;
   }
-  for (auto& h : next.hypotheses) {
-    h.deviation = transition.F * h.deviation;
-    const Matrix<N> FP = transition.F.lazyProduct(h.covariance);
-    h.covariance = terms[h.scale].variance * transition.Q + FP.lazyProduct(transition.F.transpose());
-    symmetrize(h.covariance);
+  for (auto& block : next.blocks) {
+    const Matrix<N> Q = block.own(transition.Q);
+    for (auto& h : block.hypotheses) {
+      h.deviation = transition.F * h.deviation;
+      const Matrix<N> FP = transition.F.lazyProduct(h.covariance);
+      h.covariance = terms[h.scale].variance * Q + FP.lazyProduct(transition.F.transpose());
+      symmetrize(h.covariance);
+    }
   }
   next.summary.mean = transition.mean;
   next.summarize();
   return next;
 }
 
-/// Probabilities that a row's mode begins, and that it ends, since it was last asked for.
 template <int N>
-std::array<double, 2> GaussianSumFilter<N>::modeSwitch(Belief& belief, const Row& row) const {
-  double& asked = belief.mode_time[options_.mode.common ? 0 : row.channel];
-  const double elapsed = asked == 0 ? 0 : row.time - asked;
-  asked = row.time;
-  return {-std::expm1(-options_.mode.rate * elapsed), std::min(1.0, elapsed / options_.mode.length)};
+void GaussianSumFilter<N>::branch(GaussianBlock<N>& block) const {
+  const auto& terms = options_.process;
+  std::vector<Hypothesis<N>> branches;
+  for (const auto& h : block.hypotheses)
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      branches.push_back(h);
+      branches.back().scale = i;
+      branches.back().log_weight += std::log((1 - options_.persistence) * terms[i].probability + (h.scale == i ? options_.persistence : 0));
+    }
+  block.hypotheses = std::move(branches);
 }
 
-/// Branches on all that one row's noise can be; the weight is the expected 1 / variance.
 template <int N>
-double GaussianSumFilter<N>::fuse(Belief& belief, const Row& row) const {
-  const bool modal = options_.mode.rate > 0 && (options_.mode.rows >> row.channel & 1) != 0;
-  const std::uint32_t bit = options_.mode.common ? options_.mode.rows : 1u << row.channel;
-  const auto [begins, ends] = modal ? modeSwitch(belief, row) : std::array<double, 2>{};
-  const auto& parents = belief.hypotheses;
-  std::vector<Vector<N>> Ph(parents.size());
-  std::vector<Branch> branches;
-  double best = -INFINITY;
-  const auto branch = [&](std::size_t parent, double log_weight, double innovation, double variance, double v, bool biased) {
-    const double S = v + variance * row.r;
-    branches.push_back({parent, log_weight - 0.5 * (std::log(S) + innovation * innovation / S), innovation, S, variance, biased});
-    best = std::max(best, branches.back().log_weight);
-  };
-  for (std::size_t i = 0; i < parents.size(); ++i) {
-    Ph[i] = parents[i].covariance * row.h;
-    const double v = row.h.dot(Ph[i]), innovation = row.innovation - row.h.dot(parents[i].deviation), sigma = std::sqrt(row.r);
-    const bool was = modal && (parents[i].biased & bit) != 0;
-    for (const bool is : {false, true}) {
-      const double change = was ? (is ? 1 - ends : ends) : is ? begins : 1 - begins;
-      if (change == 0) continue;
-      const double log_weight = parents[i].log_weight + std::log(change);
-      if (is && !options_.mode.bias) {
-        branch(i, log_weight, innovation, kUninformative, v, is);
-        continue;
-      }
-      for (const auto& term : options_.measurement)
-        branch(i, log_weight + std::log(term.probability), innovation - sigma * (term.mean + (is ? *options_.mode.bias : 0)), term.variance, v, is);
-    }
-  }
-  const auto heavier = [](const Branch& a, const Branch& b) { return a.log_weight > b.log_weight; };
-  branches.erase(std::remove_if(branches.begin(), branches.end(), [&](const Branch& b) { return b.log_weight < best - kBeyondReach; }), branches.end());
-  if (branches.size() > options_.branches) {
-    std::nth_element(branches.begin(), branches.begin() + static_cast<std::ptrdiff_t>(options_.branches), branches.end(), heavier);
-    branches.resize(options_.branches);
-  }
-  std::vector<Hypothesis<N>> children;
-  double total = 0, weight = 0;
-  for (const auto& b : branches) {
-    children.push_back(parents[b.parent]);
-    auto& child = children.back();
-    child.deviation += Ph[b.parent] * (b.innovation / b.S);
-    child.covariance.noalias() -= (Ph[b.parent] / b.S) * Ph[b.parent].transpose();
-    child.log_weight = b.log_weight - best;
-    if (modal) child.biased = b.biased ? child.biased | bit : child.biased & ~bit;
-    total += std::exp(child.log_weight);
-    weight += std::exp(child.log_weight) / b.variance;
-  }
-  belief.hypotheses = std::move(children);
-  return std::min(1.0, weight / total);
+bool GaussianSumFilter<N>::modal(std::uint32_t channel) const {
+  return options_.mode.rate > 0 && (options_.mode.rows >> channel & 1) != 0;
+}
+
+/// Before its first row a mode has been on for its share of the time: a spell need not wait for the first reading.
+template <int N>
+void GaussianSumFilter<N>::askMode(Belief& belief, std::uint32_t channel, double time, GaussianSumRow<N>& row) const {
+  const BiasMode& mode = options_.mode;
+  auto& asked = belief.mode_time[mode.common ? 0 : channel];
+  const double elapsed = time - asked.value_or(time), share = mode.rate * mode.length / (1 + mode.rate * mode.length);
+  row.mode = mode.common ? mode.rows : 1u << channel;
+  row.begins = asked ? -std::expm1(-mode.rate * elapsed) : share;
+  row.ends = std::min(1.0, elapsed / mode.length);
+  asked = time;
 }
 
 template <int N>
@@ -155,21 +105,39 @@ Update<GaussianSum<N>, M> GaussianSumFilter<N>::update(const Belief& prior, cons
   auto result = examine(prior, z);
   if (result.verdict == Verdict::Invalid) return result;
   Belief& belief = result.belief;
-  if (belief.hypotheses.empty()) belief.hypotheses.push_back({Vector<N>::Zero(), belief.summary.covariance, 0, 0, 0});
-  for (int row = 0; row < M; ++row)
-    result.weights(row) =
-        fuse(belief, {z.H.row(row).transpose(), z.innovation(row), z.R(row, row), z.time, static_cast<std::uint32_t>(Belief::kRows * z.source + row)});
-  if (options_.epoch == 0 || !(z.time < belief.epoch_end - kEpochTolerance * options_.epoch)) {
-    belief.epoch_over = true;
-    belief.epoch_end = (std::floor(z.time / options_.epoch + kEpochTolerance) + 1) * options_.epoch;
+  belief.start();
+  const auto channel = [&](int row) { return static_cast<std::uint32_t>(Belief::kRows * z.source + row); };
+  Vector<N> together = Vector<N>::Zero();  // states whose rows share a mode
+  for (int row = 0; row < M; ++row) {
+    const Vector<N> h = z.H.row(row).cwiseAbs();
+    if (options_.mode.common && modal(channel(row))) together += h;
+    belief.couple(h * h.transpose(), options_.hypotheses, options_.merge);
   }
-  if (belief.epoch_over && options_.persistence == 0)
-    for (auto& h : belief.hypotheses) h.scale = 0;  // of no more consequence
+  belief.couple(together * together.transpose(), options_.hypotheses, options_.merge);
+  for (int row = 0; row < M; ++row) {
+    GaussianSumRow<N> reading{z.H.row(row).transpose(), z.innovation(row), z.R(row, row)};
+    if (modal(channel(row))) askMode(belief, channel(row), z.time, reading);
+    const auto seen = [&](const GaussianBlock<N>& block) { return block.states.dot(reading.h.cwiseAbs()) != 0; };
+    if (const auto block = std::find_if(belief.blocks.begin(), belief.blocks.end(), seen); block != belief.blocks.end())
+      result.weights(row) = reading.fuse(*block, options_);
+  }
+  endEpoch(belief, z.time);
   belief.summarize();
-  belief.reduce(options_.hypotheses, options_.merge);
+  for (auto& block : belief.blocks) block.reduce(options_.hypotheses, options_.merge);
   symmetrize(belief.summary.covariance);
   result.verdict = verdictFromWeights(result.weights);
   return result;
+}
+
+template <int N>
+void GaussianSumFilter<N>::endEpoch(Belief& belief, double time) const {
+  if (options_.epoch == 0 || !(time < belief.epoch_end - kEpochTolerance * options_.epoch)) {
+    belief.epoch_over = true;
+    belief.epoch_end = (std::floor(time / options_.epoch + kEpochTolerance) + 1) * options_.epoch;
+  }
+  if (!belief.epoch_over || options_.persistence > 0) return;
+  for (auto& block : belief.blocks)
+    for (auto& h : block.hypotheses) h.scale = 0;  // of no more consequence
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(GaussianSumFilter)

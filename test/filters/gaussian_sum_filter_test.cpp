@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "filters/eight_laws.hpp"
-#include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/evaluation/law_aware.hpp"
+#include "sas_motion/filters/kalman_filter.hpp"
 #include "support.hpp"
 
 namespace sas_motion {
@@ -35,7 +35,7 @@ TEST(GaussianSumFilter, WithOneTermEachIsTheKalmanFilter) {
     ASSERT_LT(relativeDifference(gaussian(b).covariance, a.covariance), 1e-12) << i;
     ASSERT_NEAR(found.nis, expected.nis, 1e-9 * expected.nis);
     ASSERT_EQ(found.verdict, Verdict::Accepted);
-    ASSERT_EQ(b.hypotheses.size(), 1u);
+    ASSERT_EQ(b.blocks.front().hypotheses.size(), 1u);
   }
 }
 
@@ -71,7 +71,7 @@ TEST(GaussianSumFilter, WithoutMergingHasTheExactPosteriorOfAllBranches) {
     }
   expected.mean /= total;
   expected.covariance = second / total - expected.mean * expected.mean.transpose();
-  EXPECT_EQ(found.hypotheses.size(), 4u);
+  EXPECT_EQ(found.blocks.front().hypotheses.size(), 4u);
   EXPECT_LT(relativeDifference(gaussian(found).mean, expected.mean), 1e-12);
   EXPECT_LT(relativeDifference(gaussian(found).covariance, expected.covariance), 1e-11);
 }
@@ -79,11 +79,13 @@ TEST(GaussianSumFilter, WithoutMergingHasTheExactPosteriorOfAllBranches) {
 TEST(GaussianSumFilter, MergingKeepsMeanAndCovariance) {
   Random random = announced(73);
   GaussianSum<6> sum;
-  for (int i = 0; i < 30; ++i) sum.hypotheses.push_back({testing::randomMatrix<6>(random), testing::randomCovariance<6>(random), random.gaussian(), 0, 0});
+  sum.blocks.emplace_back();
+  auto& block = sum.blocks.front();
+  for (int i = 0; i < 30; ++i) block.hypotheses.push_back({testing::randomMatrix<6>(random), testing::randomCovariance<6>(random), random.gaussian(), 0, 0});
   sum.summarize();
   const auto before = sum.summary;
-  sum.reduce(30, 20);
-  EXPECT_LT(sum.hypotheses.size(), 20u);
+  block.reduce(30, 4);
+  EXPECT_LT(block.hypotheses.size(), 20u);
   sum.summarize();
   EXPECT_LT(relativeDifference(sum.summary.mean, before.mean), 1e-12);
   EXPECT_LT(relativeDifference(sum.summary.covariance, before.covariance), 1e-12);
@@ -103,7 +105,7 @@ TEST(GaussianSumFilter, AnEpochKeepsItsScaleUntilTheFirstUpdateAfterItsEnd) {
     belief = filter.predict(belief, testing::cvAxis(belief.summary.mean));
     if (i == 0) belief.epoch_end = 1.6e9 + 1;
     belief = filter.update(belief, z).belief;
-    EXPECT_EQ(belief.hypotheses.size(), expected[i]) << i;
+    EXPECT_EQ(belief.blocks.front().hypotheses.size(), expected[i]) << i;
   }
 }
 
@@ -128,6 +130,92 @@ TEST(GaussianSumFilter, OnlyTheBiasedRowIsNotBelieved) {
   EXPECT_LT(weights(0), 0.01);
   EXPECT_GT(weights(1), 0.9);
   EXPECT_LT(std::abs(belief.summary.mean(0)), 0.1);
+}
+
+TEST(GaussianSumFilter, WhatNothingCouplesIsFollowedApart) {  // with what is merged and left out, so that it is not the exact posterior
+  GaussianSumOptions options;
+  options.measurement = studentTerms(3);
+  const GaussianSumFilter<6> all(options);
+  const GaussianSumFilter<2> one(options);
+  GaussianSum<6> belief{Gaussian<6>{}};
+  GaussianSum<2> north{Gaussian<2>{}}, down = north;
+  Random random = announced(75);
+  for (const auto& sample : testing::cvRun(testing::kEightLaws[4], random, 60)) {
+    belief = all.predict(belief, testing::kCv.transition(belief.summary.mean));
+    belief = all.update(belief, testing::kCv.measurement(sample.z, belief.summary.mean, 0)).belief;
+    for (const auto& [axis, sum] : {std::pair{1, &north}, {2, &down}}) {
+      *sum = one.predict(*sum, testing::cvAxis(sum->summary.mean));
+      *sum = one.update(*sum, LinearMeasurement<2, 1>{Vector<1>(sample.z(axis) - sum->summary.mean(0)), Matrix<1, 2>(1, 0), Matrix<1>(1.0)}).belief;
+      ASSERT_NEAR(belief.summary.mean(axis), sum->summary.mean(0), 1e-9);
+      ASSERT_NEAR(belief.summary.mean(axis + 3), sum->summary.mean(1), 1e-9);
+      ASSERT_NEAR(belief.summary.covariance(axis, axis + 3), sum->summary.covariance(0, 1), 1e-9);
+    }
+  }
+  EXPECT_EQ(belief.blocks.size(), 3u);
+}
+
+TEST(GaussianSumFilter, WhatStartMotionRowOrACommonCauseCouplesIsOneBlock) {
+  const auto step = testing::kCv.transition(Vector<6>::Zero());
+  const auto z = testing::kCv.measurement(Vector<4>::Zero(), Vector<6>::Zero(), 1);
+  const auto blocks = [&](const GaussianSumOptions& options, const Matrix<6>& P, const LinearMeasurement<6, 4>& measurement) {
+    const GaussianSumFilter<6> filter(options);
+    return filter.update(filter.predict(GaussianSum<6>{Gaussian<6>{Vector<6>::Zero(), P}}, step), measurement).belief.blocks.size();
+  };
+  const Matrix<6> apart = Matrix<6>::Identity();
+  EXPECT_EQ(blocks({}, apart, z), 3u);
+  Matrix<6> together = apart;
+  together(0, 4) = together(4, 0) = 0.1;
+  EXPECT_EQ(blocks({}, together, z), 2u);
+  auto sum = z;
+  sum.H(1, 2) = -1;
+  EXPECT_EQ(blocks({}, apart, sum), 2u);
+  GaussianSumOptions scale;
+  scale.process = {{1, 0.9}, {100, 0.1}};
+  EXPECT_EQ(blocks(scale, apart, z), 1u);
+  GaussianSumOptions mode;
+  mode.mode.rate = 0.01;
+  mode.mode.rows = 0b0110;
+  EXPECT_EQ(blocks(mode, apart, z), 3u);
+  mode.mode.common = true;
+  EXPECT_EQ(blocks(mode, apart, z), 2u);
+}
+
+TEST(GaussianSumFilter, JoiningBlocksKeepsMeanAndCovariance) {
+  Random random = announced(76);
+  GaussianSum<6> sum;
+  for (const auto& states : {Vector<6>{1, 0, 1, 0, 0, 0}, Vector<6>{0, 1, 0, 1, 1, 1}}) {
+    sum.blocks.push_back({states});
+    for (int i = 0; i < 5; ++i)
+      sum.blocks.back().hypotheses.push_back(
+          {states.cwiseProduct(testing::randomMatrix<6, 1>(random)), sum.blocks.back().own(testing::randomCovariance<6>(random)), random.gaussian()});
+  }
+  sum.summarize();
+  const auto before = sum.summary;
+  sum.couple(Matrix<6>::Ones(), 25, 0);
+  ASSERT_EQ(sum.blocks.size(), 1u);
+  EXPECT_EQ(sum.blocks.front().hypotheses.size(), 25u);
+  sum.summarize();
+  EXPECT_LT(relativeDifference(sum.summary.mean, before.mean), 1e-12);
+  EXPECT_LT(relativeDifference(sum.summary.covariance, before.covariance), 1e-12);
+}
+
+TEST(GaussianSumFilter, ABurstFromTheFirstReadingIsNotTakenForTheTruth) {
+  GaussianSumOptions options;
+  options.mode.rate = 0.02;
+  options.mode.length = 5;
+  const GaussianSumFilter<2> filter(options);
+  GaussianSum<2> belief{Gaussian<2>{Vector<2>::Zero(), Vector<2>(1, 0.01).asDiagonal()}};  // too slow to get there
+  for (int i = 0; i < 40; ++i) {
+    belief = filter.predict(belief, testing::cvAxis(belief.summary.mean));
+    LinearMeasurement<2, 1> z{Vector<1>((i < 10 ? 20 : 0) - belief.summary.mean(0)), Matrix<1, 2>(1, 0), Matrix<1>(1.0)};
+    z.time = 0.5 * i;  // from 0: a stamp like any other
+    const auto update = filter.update(belief, z);
+    belief = update.belief;
+    ASSERT_LT(std::abs(belief.summary.mean(0)), 1) << i;
+    if (i > 12) {
+      ASSERT_GT(update.weights(0), 0.9) << i;
+    }
+  }
 }
 
 TEST(GaussianSumFilter, SouthIsNoWorseThanNorth) {  // where headings wrap

@@ -97,9 +97,6 @@ class BankKalmanFilter {
  private:
   void start(Belief& belief) const;
   void openEpoch(Belief& belief, double time) const;
-  std::size_t channel(Belief& belief, int key, double time) const;
-  template <int M>
-  void judge(Belief& belief, const LinearMeasurement<N, M>& z, Vector<M>& weights) const;
 
   Options options_;
 };

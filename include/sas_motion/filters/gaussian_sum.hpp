@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sas_motion/filters/linearized.hpp"
@@ -16,30 +17,44 @@ namespace sas_motion {
 template <int N>
 struct Hypothesis {
   Vector<N> deviation = Vector<N>::Zero();  ///< from the summary's mean: a small vector, so that wrapped states add up
-  Matrix<N> covariance = Matrix<N>::Identity();
+  Matrix<N> covariance = Matrix<N>::Zero();
   double log_weight = 0;
   std::uint32_t biased = 0;  ///< rows that are in their bias mode, a bit each
   std::size_t scale = 0;     ///< of the process noise in the present epoch
 };
 
-/// A belief that is a sum of Gaussians [Sorenson1971], with its mean and covariance.
+/// Some of the states as a sum of Gaussians [Sorenson1971]; vectors and matrices are zero at the others.
+template <int N>
+struct GaussianBlock {
+  Vector<N> states = Vector<N>::Ones();  ///< 1 for each that is in the block, 0 for the others
+  std::vector<Hypothesis<N>> hypotheses{};
+
+  Matrix<N> own(const Matrix<N>& all) const { return states.asDiagonal() * all * states.asDiagonal(); }
+  /// Weights relative to their sum, which they then have as logarithms; weights beyond reach are zero.
+  std::vector<double> normalize();
+  /// Merges hypotheses whose squared distance a state to a heavier one is below `merge`, and keeps the `count` heaviest [Salmond1990].
+  void reduce(std::size_t count, double merge);
+};
+
+/// A belief that is a sum of Gaussians for each block of states that nothing has coupled yet, with its mean and covariance. Independent
+/// blocks of 48 hypotheses say as much as one of 48 times 48.
 template <int N>
 struct GaussianSum {
   static constexpr int kRows = 4;  ///< of a source
   static constexpr std::size_t kChannels = kRows * kMaxSources;
 
   Gaussian<N> summary;
-  std::vector<Hypothesis<N>> hypotheses{};    ///< none: the summary alone
-  bool epoch_over = true;                     ///< the next prediction begins an epoch of the process noise
-  double epoch_end = NAN;                     ///< [s]
-  std::array<double, kChannels> mode_time{};  ///< when a channel's mode was last asked for [s]; 0 for never
+  std::vector<GaussianBlock<N>> blocks{};                    ///< none: the summary alone
+  bool epoch_over = true;                                    ///< the next prediction begins an epoch of the process noise
+  double epoch_end = NAN;                                    ///< [s]
+  std::array<std::optional<double>, kChannels> mode_time{};  ///< when a channel's mode was last asked for [s]
 
-  /// Weights relative to their sum, which they then have as logarithms; weights beyond reach are zero.
-  std::vector<double> normalize();
+  /// Where there are no blocks yet, divides the summary into the blocks that its covariance does not couple.
+  void start();
+  /// Joins blocks wherever `coupling` is not zero, with all pairs of their hypotheses but for what `reduce` takes away.
+  void couple(const Matrix<N>& coupling, std::size_t count, double merge);
   /// Takes mean and covariance from the hypotheses, and their deviations from this mean.
   void summarize();
-  /// Merges hypotheses that are closer than `merge` to a heavier one, and keeps the `count` heaviest [Salmond1990].
-  void reduce(std::size_t count, double merge);
 };
 
 template <int N>

@@ -36,14 +36,19 @@ struct GaussianSumOptions {
   BiasMode mode;
   std::size_t hypotheses = 48;  ///< kept after an update
   std::size_t branches = 160;   ///< followed inside an update
-  double merge = 0.1;           ///< distance below which two hypotheses become one [-]
+  double merge = 0.1;  ///< squared distance a state below which two hypotheses become one: in standard deviations, and of the logarithms of variances [-]
 };
+
+template <int N>
+struct GaussianSumRow;
 
 /// The Bayes filter of known, non-Gaussian noise as far as it can be computed: a reference of what the best causal estimator reaches.
 ///
 /// Every Gaussian of every noise law makes a branch: a Kalman filter that assumes it. The heaviest are kept, near ones merged
-/// [Sorenson1971]. The scale of the process noise branches at the first prediction of an epoch; an epoch ends with the first update at or
-/// after a multiple of its length. Rows are fused one by one, R is diagonal. With one term each this is the Kalman filter.
+/// [Sorenson1971]. States that nothing couples (the start, the motion, a row; a scale of the process noise or a mode of several rows) are
+/// followed apart. The scale of the process noise branches at the first prediction of an epoch; an epoch ends with the first update at or
+/// after a multiple of its length. A mode may be on from the start. Rows are fused one by one, R is diagonal. With one term each this is
+/// the Kalman filter.
 template <int N>
 class GaussianSumFilter {
  public:
@@ -58,9 +63,10 @@ class GaussianSumFilter {
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
 
  private:
-  struct Row;
-  double fuse(Belief& belief, const Row& row) const;
-  std::array<double, 2> modeSwitch(Belief& belief, const Row& row) const;
+  void branch(GaussianBlock<N>& block) const;
+  bool modal(std::uint32_t channel) const;
+  void askMode(Belief& belief, std::uint32_t channel, double time, GaussianSumRow<N>& row) const;
+  void endEpoch(Belief& belief, double time) const;
 
   GaussianSumOptions options_;
 };

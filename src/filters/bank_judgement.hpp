@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bank_moments.hpp"
+#include "bank_reading.hpp"
+#include "sas_motion/filters/bank_kalman_filter.hpp"
+
+namespace sas_motion {
+
+/// What the bank makes of one measurement: every hypothesis hears each row, is weighed by how well it foresaw them, and what all of them
+/// think the noise was is learned.
+template <int N, int M>
+class BankJudgement {
+ public:
+  using Belief = BankBelief<N>;
+  using Options = typename BankKalmanFilter<N>::Options;
+
+  BankJudgement(const Options& options, Belief& belief, const LinearMeasurement<N, M>& z) : options_(options), belief_(belief), z_(z) {
+    for (int row = 0; row < M; ++row) {
+      place_[row] = channel(row);
+      auto& learned = belief.channels[place_[row]];
+      elapsed_[row] = (z.time - learned.time) / options.epoch;
+      learned.time = z.time;
+    }
+  }
+
+  /// Fuses the rows; how far each is believed, 0 to 1.
+  Vector<M> weights() {
+    for (std::size_t i = 0; i < kHypotheses; ++i) hear(i);
+    weigh();
+    Vector<M> weights;
+    for (int row = 0; row < M; ++row) weights(row) = learn(row);
+    return weights;
+  }
+
+ private:
+  static constexpr std::size_t kHypotheses = Belief::kHypotheses;
+  static constexpr double kPriorReadings = 50;   // that the options' probabilities of the scales are worth
+  static constexpr double kFade = 0.5;           // an epoch: stickiness beyond the longest burst
+  static constexpr double kSmallestShare = 0.1;  // of a scale's own probability: nothing is ever ruled out
+  static constexpr int kRowsPerSource = 8;
+
+  std::size_t channel(int row) {
+    const int key = z_.source * kRowsPerSource + row;
+    for (std::size_t c = 0; c < belief_.channels.size(); ++c) {
+      auto& learned = belief_.channels[c];
+      if (learned.key != key && learned.key >= 0) continue;
+      if (learned.key < 0) learned = {key, z_.time, kPriorReadings, options_.probabilities};
+      return c;
+    }
+    return belief_.channels.size() - 1;  // more channels than places: the last ones share one
+  }
+
+  /// Doubt in the sister rows of each; in itself where it has none.
+  std::array<double, M> sharedDoubt(const BankHypothesis<N>& h) const {
+    std::array<double, M> shared;
+    for (int row = 0; row < M; ++row) {
+      shared[row] = M == 1 ? h.channels[place_[row]].doubt : 0;
+      for (int other = 0; other < M; ++other)
+        if (other != row) shared[row] = std::max(shared[row], h.channels[place_[other]].doubt);
+    }
+    return shared;
+  }
+
+  void hear(std::size_t i) {
+    auto& h = belief_.hypotheses[i];
+    log_weight_[i] = std::log(h.weight);
+    const auto shared = sharedDoubt(h);
+    for (int row = 0; row < M; ++row) {
+      const auto& c = h.channels[place_[row]];
+      if (i == 1 && c.run > (shared[row] > 0.5 ? options_.burst : options_.patience)) reach(h, row);
+      shares_[i][row] = fuse(h, row, shared[row], log_weight_[i]);
+    }
+    for (int row = 0; row < M; ++row) {
+      const Vector<N> H = z_.H.row(row).transpose();
+      h.channels[place_[row]].residual = z_.innovation(row) - H.dot(h.deviation);
+      h.channels[place_[row]].variance = H.dot(h.covariance * H);
+    }
+  }
+
+  /// Makes the hypothesis so unsure that the row is within its reach.
+  void reach(BankHypothesis<N>& h, int row) const {
+    const Vector<N> H = z_.H.row(row).transpose();
+    const double off = z_.innovation(row) - H.dot(h.deviation);
+    h.covariance += widening<N>(h.covariance, H, off * off);
+    h.channels[place_[row]].run = h.channels[place_[row]].doubt = 0;
+  }
+
+  /// The row's mixture collapsed in closed form [Masreliez1975]; the shares of its scales.
+  BankReading::Scales fuse(BankHypothesis<N>& h, int row, double shared, double& log_weight) const {
+    auto& c = h.channels[place_[row]];
+    const Vector<N> H = z_.H.row(row).transpose(), PH = h.covariance * H;
+    const double innovation = z_.innovation(row) - H.dot(h.deviation), v = std::max(0.0, H.dot(PH));
+    const double fade = c.run > options_.burst ? std::pow(kFade, c.run - options_.burst) : 1;
+    const BankReading reading(innovation, v, z_.R(row, row),
+                              {options_.scales, belief_.channels[place_[row]].shares, options_.sticky, options_.repeat, c.doubt * shared * fade, c.residual,
+                               std::max(0.0, v - c.variance)});
+    h.deviation += PH * (innovation * reading.inverse);
+    h.covariance -= (PH * (reading.inverse - innovation * innovation * (reading.inverse_squared - reading.inverse * reading.inverse))) * PH.transpose();
+    log_weight += std::log(reading.likelihood);
+    c.doubt = reading.doubt;
+    c.run = reading.doubt * (std::min(elapsed_[row], 1.0) + reading.agreement * c.run);
+    return reading.shares;
+  }
+
+  void weigh() {
+    const double largest = *std::max_element(log_weight_.begin(), log_weight_.end());
+    double sum = 0;
+    for (std::size_t i = 0; i < kHypotheses; ++i) sum += belief_.hypotheses[i].weight = std::exp(log_weight_[i] - largest);
+    for (auto& h : belief_.hypotheses) h.weight = h.weight / sum + kBankLeastWeight;
+  }
+
+  double learn(int row) {
+    auto& learned = belief_.channels[place_[row]];
+    learned.readings = std::min(learned.readings + 1, kBankMemory);
+    double weight = 0, total = 0;
+    for (std::size_t j = 0; j < BankReading::kScales; ++j) {
+      double share = 0;
+      for (std::size_t i = 0; i < kHypotheses; ++i) share += belief_.hypotheses[i].weight * shares_[i][row][j];
+      if (j < BankReading::kNarrow) weight += share / options_.scales[j];
+      learned.shares[j] = std::max(learned.shares[j] + (share - learned.shares[j]) / learned.readings, kSmallestShare * options_.probabilities[j]);
+      total += learned.shares[j];
+    }
+    for (double& share : learned.shares) share /= total;
+    return std::min(1.0, weight);
+  }
+
+  const Options& options_;
+  Belief& belief_;
+  const LinearMeasurement<N, M>& z_;
+  std::array<std::size_t, M> place_;
+  std::array<double, M> elapsed_;
+  std::array<std::array<BankReading::Scales, M>, kHypotheses> shares_;
+  std::array<double, kHypotheses> log_weight_;
+};
+
+}  // namespace sas_motion

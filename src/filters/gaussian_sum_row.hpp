@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sas_motion/filters/gaussian_sum_filter.hpp"
+
+namespace sas_motion {
+
+/// One row of a measurement, about the summary's mean before any row was fused.
+template <int N>
+struct GaussianSumRow {
+  Vector<N> h;
+  double innovation, r;
+  std::uint32_t mode = 0;       ///< its bit in Hypothesis::biased; 0: it is never biased
+  double begins = 0, ends = 0;  ///< probabilities that its mode did since it was last asked for
+
+  /// Branches on all that the row's noise can be, and follows the heaviest branches; the weight is the expected 1 / variance.
+  double fuse(GaussianBlock<N>& block, const GaussianSumOptions& options) const;
+};
+
+}  // namespace sas_motion
