@@ -2,25 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // simulate SCENARIO.yaml -o OUT.bag: a scenario to a bag with sensors and truth.
-#include <geometry_msgs/TransformStamped.h>
-#include <sas_motion/MeasurementLabel.h>
-#include <tf2_msgs/TFMessage.h>
-
 #include <cmath>
 
 #include "main_guard.hpp"
 #include "progress.hpp"
 #include "sas_motion/bag/bag_output.hpp"
-#include "sas_motion/ros/conversions.hpp"
-#include "sas_motion/simulation/simulator.hpp"
+#include "towfish_recorder.hpp"
+#include "usbl_recorder.hpp"
 
 namespace {
 
 using namespace sas_motion;
 using namespace sas_motion::ros_side;
-using namespace sas_motion::towfish;
 
-constexpr double kTruthPeriod = 0.1;  // s between truth messages
+constexpr double kTruthPeriod = 0.1;  // s between truth messages of a towfish
 
 struct Options {
   std::string scenario, out;
@@ -28,113 +23,12 @@ struct Options {
   double duration = 0;
 };
 
-/// Turns what the simulator gives into messages in a bag.
-class Recorder {
- public:
-  Recorder(const Scenario& scenario, BagOutput& bag) : scenario_(scenario), bag_(bag), frame_(scenario.datum) {}
-
-  void transforms() {
-    tf2_msgs::TFMessage message;
-    for (const char* frame : {"gnss_link", "imu_link", "dvl_link"}) {
-      geometry_msgs::TransformStamped T;
-      T.header.stamp = timeOf(Simulator::kStart);
-      T.header.frame_id = settings_.base_frame;
-      T.child_frame_id = frame;
-      T.transform.rotation.w = 1;
-      if (std::string(frame) == "gnss_link") {
-        T.transform.translation.x = scenario_.gnss_lever_arm_body(0);
-        T.transform.translation.y = -scenario_.gnss_lever_arm_body(1);
-      }
-      message.transforms.push_back(T);
-    }
-    bag_.writeLatched("/tf_static", timeOf(Simulator::kStart), message);
-  }
-
-  void truth(const TruthSample& truth) {
-    const Estimate exact{truth.stamp, {truth.state, StateMatrix::Zero()}};
-    const ros::Time time = timeOf(truth.stamp);
-    bag_.write("truth/odometry", time, odometryOf(exact, settings_));
-    bag_.write("truth/fix", time, fixOf(exact, frame_, settings_));
-    bag_.write("truth/current", time, currentOf(exact, settings_));
-  }
-
-  void measurements(const std::vector<LabelledMeasurement>& measurements) {
-    sensor_msgs::Imu imu;
-    imu.orientation_covariance[0] = imu.angular_velocity_covariance[0] = imu.linear_acceleration_covariance[0] = -1;
-    bool has_imu = false;
-    for (const auto& [z, outlier, variance] : measurements) {
-      const ros::Time time = timeOf(z.stamp);
-      if (z.sensor == Sensor::Position) bag_.write("gnss/fix", time, fix(z));
-      if (z.sensor == Sensor::Speed) bag_.write("dvl/twist", time, twist(z));
-      if (z.sensor == Sensor::Heading || z.sensor == Sensor::TurnRate) {
-        fill(imu, z);
-        has_imu = true;
-      }
-      if (z.sensor != Sensor::TurnRate) bag_.write("truth/label", time, label(z, outlier));
-    }
-    if (has_imu) {
-      imu.header.seq = imu_seq_++;
-      bag_.write("imu/data", imu.header.stamp, imu);
-    }
-  }
-
- private:
-  sensor_msgs::NavSatFix fix(const Measurement& z) {
-    Estimate at{z.stamp, {}};
-    at.belief.mean << z.value, 0, 0, 0, 0;
-    sensor_msgs::NavSatFix message = fixOf(at, frame_, settings_);
-    message.header.seq = fix_seq_++;
-    message.header.frame_id = "gnss_link";
-    message.position_covariance = {z.variance(1), 0, 0, 0, z.variance(0), 0, 0, 0, 4 * z.variance(0)};
-    message.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
-    return message;
-  }
-
-  geometry_msgs::TwistWithCovarianceStamped twist(const Measurement& z) {
-    geometry_msgs::TwistWithCovarianceStamped message;
-    message.header.seq = twist_seq_++;
-    message.header.stamp = timeOf(z.stamp);
-    message.header.frame_id = "dvl_link";
-    message.twist.twist.linear.x = z.value(0);
-    for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i == 0 ? z.variance(0) : 1e6;
-    return message;
-  }
-
-  void fill(sensor_msgs::Imu& imu, const Measurement& z) {
-    imu.header.stamp = timeOf(z.stamp);
-    imu.header.frame_id = "imu_link";
-    if (z.sensor == Sensor::Heading) {
-      Estimate at{z.stamp, {}};
-      at.belief.mean(kHeading) = z.value(0);
-      imu.orientation = odometryOf(at, settings_).pose.pose.orientation;
-      imu.orientation_covariance = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, z.variance(0)};
-    } else {
-      imu.angular_velocity.z = -z.value(0);
-      imu.angular_velocity_covariance = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, z.variance(0)};
-    }
-  }
-
-  sas_motion::MeasurementLabel label(const Measurement& z, const std::array<bool, 2>& outlier) {
-    sas_motion::MeasurementLabel message;
-    message.header.stamp = timeOf(z.stamp);
-    message.sensor = sensorName(z.sensor);
-    message.outlier.assign(outlier.begin(), outlier.begin() + rowsOf(z.sensor));
-    return message;
-  }
-
-  const Scenario& scenario_;
-  BagOutput& bag_;
-  LocalFrame frame_;
-  Settings settings_;
-  std::uint32_t fix_seq_ = 0, imu_seq_ = 0, twist_seq_ = 0;
-};
-
-void run(const Options& options) {
-  Scenario scenario = Scenario::fromFile(options.scenario);
+void simulateTowfish(const Options& options) {
+  towfish::Scenario scenario = towfish::Scenario::fromFile(options.scenario);
   if (options.duration > 0) scenario.duration = options.duration;
   BagOutput bag(options.out);
-  Recorder recorder(scenario, bag);
-  Simulator simulator(scenario, options.seed);
+  TowfishRecorder recorder(scenario, bag);
+  towfish::Simulator simulator(scenario, options.seed);
   const long every = std::max(1L, std::lround(kTruthPeriod / scenario.step));
   Progress progress("simulate", scenario.duration, scenario.duration);
   recorder.transforms();
@@ -146,11 +40,33 @@ void run(const Options& options) {
   bag.commit();
 }
 
+void simulateUsbl(const Options& options) {
+  usbl::Scenario scenario = usbl::Scenario::fromFile(options.scenario);
+  if (options.duration > 0) scenario.duration = options.duration;
+  BagOutput bag(options.out);
+  UsblRecorder recorder(scenario, options.seed, bag);
+  Progress progress("simulate", scenario.duration, scenario.duration);
+  recorder.record([&](double seconds) { progress.advance(seconds); });
+  bag.commit();
+}
+
+void run(const Options& options) {
+  auto yaml = YamlSection::fromFile(options.scenario);
+  std::string system = "towfish";
+  if (yaml.has("system")) {
+    yaml.text("system", system);
+    if (system != "usbl") yaml.fail("system", "is '" + system + "' but must be usbl, or left out for a towfish");
+  }
+  system == "usbl" ? simulateUsbl(options) : simulateTowfish(options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Simulates a scenario into a bag: gnss/fix, imu/data, dvl/twist, /tf_static, and truth/odometry, truth/fix, truth/current, truth/label.",
+  CLI::App app("Simulates a scenario into a bag. A towfish's: gnss/fix, imu/data, dvl/twist, /tf_static, and truth/odometry, truth/fix, truth/current, truth/label. "
+               "With 'system: usbl', a calibration's: gnss/fix, imu/data, usbl/measurement, usbl/transponder, /tf_static, and truth/odometry, truth/label, "
+               "truth/usbl_mounting.",
                "simulate");
   app.add_option("SCENARIO", options.scenario, "scenario to play (YAML)")->required();
   app.add_option("-o,--output", options.out, "bag to write")->required();

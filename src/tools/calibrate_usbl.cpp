@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// calibrate_usbl IN.bag -o calibration.yaml: how a USBL array is mounted, from a recorded calibration run.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "calibration_result.hpp"
+#include "main_guard.hpp"
+#include "progress.hpp"
+#include "sas_motion/bag/bag_reader.hpp"
+#include "sas_motion/io/atomic_file.hpp"
+#include "sas_motion/math/angles.hpp"
+
+namespace sas_motion {
+
+using namespace usbl;
+using namespace ros_side;
+
+double inTableUnit(int unknown, double value) { return isAngle(unknown) ? value / kRadPerDeg : value; }
+
+const char* tableUnit(int unknown) { return isAngle(unknown) ? "deg" : unknown == kRangeScale ? "-" : "m"; }
+
+std::optional<State> CalibrationResult::truth() const {
+  if (!recording.truth) return std::nullopt;
+  return correctionTo(*recording.truth, recording.nominal);
+}
+
+std::vector<std::size_t> CalibrationResult::outliersByMinute() const {
+  const auto& pings = comparison.problem.pings;
+  std::vector<std::size_t> counts;
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    const auto minute = static_cast<std::size_t>(secondsBetween(pings.front().stamp, pings[i].stamp) / 60);
+    if (minute >= counts.size()) counts.resize(minute + 1);
+    if (whitenedResidual(comparison, comparison.best(), i).cwiseAbs().maxCoeff() > kOutlier) ++counts[minute];
+  }
+  return counts;
+}
+
+std::string CalibrationResult::conclusion() const {
+  const auto& observability = comparison.observability;
+  if (!observability.observable) return observability.verdict;
+  if (!comparison.agrees)
+    return fmt::format("not to be trusted: {} and batch disagree, their squared distance is {:.0f} where 17 is the limit; it may have locked in to wrong readings", comparison.best().name,
+                       comparison.distance);
+  const bool alone = comparison.best().name == "batch";
+  return fmt::format("observable: {}{}", observability.verdict, alone ? "" : fmt::format("; {} and batch agree", comparison.best().name));
+}
+
+}  // namespace sas_motion
+
+namespace {
+
+using namespace sas_motion;
+using namespace sas_motion::ros_side;
+
+constexpr int kNotTrusted = 3;  // exit status of a calibration that says itself that it is not to be trusted
+
+struct Options {
+  std::string bag, out = "calibration.yaml", config, mode;
+  std::vector<std::string> estimators{"ckf", "vbckf", "hckf", "hvbckf", "batch"};
+};
+
+CalibrationResult calibrate(const Options& options) {
+  CalibrationResult result;
+  result.bag = std::filesystem::path(options.bag).filename().string();
+  result.settings = UsblSettings::fromFile(options.config);
+  if (!options.mode.empty()) result.settings.calibration.mode = usbl::modeFromName(options.mode);
+  {
+    const double seconds = [&] { BagReader bag(options.bag); return (bag.end() - bag.begin()).toSec(); }();
+    Progress progress("read", seconds, seconds);
+    result.recording = UsblRecording::read(options.bag, result.settings, [&](double passed) { progress.advance(passed); });
+  }
+  Progress progress("calibrate", static_cast<double>(options.estimators.size()), 0);
+  result.comparison = usbl::compare(result.recording.pings, result.settings.calibration, options.estimators, usbl::solveIteratively, [&] { progress.advance(1); });
+  if (!result.comparison.failure.empty()) throw std::runtime_error(fmt::format("{}: {}", options.bag, result.comparison.failure));
+  return result;
+}
+
+bool run(const Options& options) {
+  const std::filesystem::path trace = std::filesystem::path(options.out).replace_extension(".json");
+  if (trace == options.out) throw std::runtime_error(fmt::format("{}: the trace takes the name with .json; give the calibration another, such as .yaml", options.out));
+  const CalibrationResult result = calibrate(options);
+  writeFile(trace, calibrationTrace(result));
+  writeFile(options.out, calibrationDocument(result));
+  fmt::print("{}", calibrationTable(result));
+  return result.comparison.trusted();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Finds the mounting angles and the lever arm of a USBL array from a bag with gnss/fix, imu/data, usbl/measurement and usbl/transponder.", "calibrate_usbl");
+  app.footer("Beside the calibration a trace of the same name with .json is written, for calibration_report.py. The exit status is 0 for a calibration that may\n"
+             "be trusted, 3 for one that says itself that it may not (the track cannot tell, or a filter and batch disagree), 1 where there is none, 2 for a wrong\n"
+             "command line.");
+  app.add_option("BAG", options.bag, "bag to read")->required();
+  app.add_option("-o,--output", options.out, "calibration to write (YAML; default: calibration.yaml)");
+  app.add_option("--estimators", options.estimators, fmt::format("names, comma-separated, of {} (default: ckf,vbckf,hckf,hvbckf,batch); batch always runs", fmt::join(usbl::estimatorNames(), ", ")))
+      ->delimiter(',')
+      ->check(CLI::IsMember(usbl::estimatorNames()));
+  app.add_option("--config", options.config, "configuration (YAML; default: built in, see config/usbl.yaml)");
+  app.add_option("--mode", options.mode, "what of a direction is used, instead of the configuration's")->check(CLI::IsMember(usbl::modeNames()));
+  bool trusted = true;
+  const int status = runTool(app, argc, argv, [&] { trusted = run(options); });
+  return status == 0 && !trusted ? kNotTrusted : status;
+}
