@@ -20,7 +20,7 @@ namespace {
 using namespace sas_motion;
 using namespace sas_motion::imaging;
 
-/// A straight track past a patch 30 m away, with noise for echoes; receivers apart from the transmitter and under way where asked for.
+/// The 4.5 m that a beam of 0.1 m elements opens at 30 m, with noise for echoes; receivers apart from the transmitter and under way where asked for.
 EchoLines noiseLines(int count, bool bistatic) {
   EchoLines lines;
   lines.carrier = 100e3;
@@ -33,7 +33,7 @@ EchoLines noiseLines(int count, bool bistatic) {
   for (auto& value : lines.data) value = {static_cast<float>(random.gaussian()), static_cast<float>(random.gaussian())};
   for (int i = 0; i < count; ++i) {
     EchoPath path;
-    path.transmitter = path.receiver = {0.02 * (i - count / 2), 0.01 * random.gaussian(), 10};
+    path.transmitter = path.receiver = {4.5 / count * (i - count / 2), 0.01 * random.gaussian(), 10};
     if (bistatic) {
       path.receiver.x() += 0.3;
       path.receiver_velocity.x() = 2;
@@ -48,8 +48,8 @@ ImageGrid patch(int rows, int columns) {
   grid.rows = rows;
   grid.columns = columns;
   grid.range_step = 0.01;
-  grid.along_step = 0.02;
-  grid.origin = {-0.5 * columns * grid.along_step, 28, 0};
+  grid.along_step = 0.025;
+  grid.origin = {-0.5 * columns * grid.along_step, 24, 0};
   return grid;
 }
 
@@ -101,8 +101,8 @@ Rate rate(const EchoLines& lines, const ImageGrid& grid, int repeats, Make&& mak
 
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::atoi(argv[1]) : 20;
-  const ImageGrid grid = patch(512, 512);
-  fmt::print("512 x 512 pixels, 256 lines; best of {} repeats; 10^6 pulses x pixels\n", repeats);
+  const ImageGrid grid = patch(1024, 128);
+  fmt::print("1024 x 128 pixels of 1 x 2.5 cm, 256 lines; best of {} repeats; 10^6 pulses x pixels\n", repeats);
   const EchoLines few = noiseLines(8, false);
   const Rate plain = rate(few, grid, repeats, [&] { return plainLoop(few, grid); });
   fmt::print("{:14} {:10} {:5.0f} a second, {:5.0f} a CPU second\n", "plain double", "monostatic", plain.wall, plain.cpu);

@@ -16,7 +16,7 @@
 namespace sas_motion::imaging {
 namespace {
 
-constexpr std::size_t kBatch = 64;  // lines upsampled at a time: what bounds the work space
+constexpr std::size_t kBatch = 32;  // lines upsampled at a time: what bounds the work space
 constexpr double kLargestTile = 2;  // side of a tile [m]: float then resolves its paths to 1e-7 m
 constexpr int kMostRows = 32, kMostColumns = 2 * kTileLanes;
 

@@ -8,15 +8,17 @@ namespace sas_motion::imaging {
 namespace {
 
 constexpr int kBefore = Interpolator::kTaps / 2 - 1;  // taps before the sample at floor(position)
-constexpr double kBeta = 7.6;                         // about 78 dB [Kaiser1974]
+constexpr double kBeta = 7.6;                         // about 78 dB
 
 }  // namespace
 
-double Interpolator::kernel(double x) {
-  const double u = x / (kTaps / 2);
+double kaiserSinc(double x, int taps, double beta) {
+  const double u = x / (0.5 * taps);
   if (std::abs(u) >= 1) return 0;
-  return sinc(x) * std::cyl_bessel_i(0.0, kBeta * std::sqrt(1 - u * u)) / std::cyl_bessel_i(0.0, kBeta);
+  return sinc(x) * std::cyl_bessel_i(0.0, beta * std::sqrt(1 - u * u)) / std::cyl_bessel_i(0.0, beta);
 }
+
+double Interpolator::kernel(double x) { return kaiserSinc(x, kTaps, kBeta); }
 
 Interpolator::Interpolator() : table_(kPhases + 1) {
   for (int phase = 0; phase <= kPhases; ++phase)

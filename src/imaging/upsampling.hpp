@@ -8,11 +8,11 @@
 namespace sas_motion::imaging {
 
 /// Lines on a finer grid, for linear interpolation. Linear interpolation damps a wave of w radians a fine sample by w^2 / 12 on average; the taps
-/// raise it by as much beforehand, so that only the ripple about the average is left: below -60 dB of the line's energy, where the average alone had -52 dB.
+/// raise it by as much beforehand, so that only the ripple about the average is left: below -60 dB of the line's energy, a tenth of what it is without.
 class Upsampling {
  public:
-  static constexpr int kFactor = 12;  ///< fine samples a sample
-  static constexpr int kSlack = 4;
+  static constexpr int kFactor = 9;  ///< fine samples a sample
+  static constexpr int kSlack = 7;
 
   Upsampling();
   /// Fine samples 0 ... kFactor samples - 1, in two planes. Up to kSlack values behind them are overwritten with anything.
