@@ -72,9 +72,8 @@ class FineLines {
 
   void load(std::size_t first, int threads) {
     first_ = first;
-    forEachTask(std::min(kBatch, lines_.paths.size() - first), threads, [&](std::size_t i) {
-      upsampling_.apply(lines_.line(first + i), lines_.samples, plane(2 * i) + 2 * padding_, plane(2 * i + 1) + 2 * padding_);
-    });
+    forEachTask(std::min(kBatch, lines_.paths.size() - first), threads,
+                [&](std::size_t i) { upsampling_.apply(lines_.line(first + i), lines_.samples, fine(i, 2 * padding_), plane()); });
   }
   /// Points the tile's line at the sample before the centre's echo. False where no pixel of the tile can hear anything.
   bool aim(std::size_t line, double path_length, TileLine& result) {
@@ -82,8 +81,8 @@ class FineLines {
     if (!(floor > -padding_ && floor < lines_.samples * Upsampling::kFactor + padding_)) return false;
     const auto offset = static_cast<std::ptrdiff_t>(floor) + 2 * padding_;
     result.position = static_cast<float>(position - floor);
-    result.real = plane(2 * (line - first_)) + offset;
-    result.imaginary = plane(2 * (line - first_) + 1) + offset;
+    result.real = fine(line - first_, offset);
+    result.imaginary = result.real + plane();
     return true;
   }
   static double bytes(const EchoLines& lines, double reach) {
@@ -92,10 +91,13 @@ class FineLines {
   }
 
  private:
-  float* plane(std::size_t i) { return values_.data() + i * length_; }
+  /// Fine sample `offset` of a line, and from there to its imaginary part.
+  float* fine(std::size_t line, std::ptrdiff_t offset) { return values_.data() + 2 * line * length_ + (interleaved_ ? 2 : 1) * offset; }
+  std::ptrdiff_t plane() const { return interleaved_ ? 1 : static_cast<std::ptrdiff_t>(length_); }
 
   const EchoLines& lines_;
   Upsampling upsampling_;
+  bool interleaved_ = kernelInterleaves();
   std::ptrdiff_t padding_;
   std::size_t length_, first_ = 0;
   std::vector<float> values_;

@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
 namespace sas_motion::imaging {
@@ -66,21 +67,12 @@ struct Neighbours {
   Floats real, next_real, imaginary, next_imaginary;
 };
 
-HWY_INLINE Neighbours gather(const TileLine& line, Integers index) {
-  const F f;
-  return {hn::GatherIndex(f, line.real, index), hn::GatherIndex(f, line.real + 1, index), hn::GatherIndex(f, line.imaginary, index),
-          hn::GatherIndex(f, line.imaginary + 1, index)};
-}
-
-#if HWY_TARGET <= HWY_AVX2
-/// from[index] for 0 <= index < 2 lanes, from two registers: several times faster than a gather.
-HWY_INLINE Floats permute(const float* from, Integers index) {
 #if HWY_TARGET <= HWY_AVX3
+constexpr bool kInterleaved = false;
+
+/// from[index] for 0 <= index < 32, from two registers: several times faster than a gather.
+HWY_INLINE Floats permute(const float* from, Integers index) {
   return Floats{_mm512_permutex2var_ps(_mm512_loadu_ps(from), index.raw, _mm512_loadu_ps(from + 16))};
-#else
-  const auto low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from), index.raw), high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from + 8), index.raw);
-  return Floats{_mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(index.raw, 28)))};  // bit 3 tells low from high
-#endif
 }
 
 HWY_INLINE Neighbours permuteAll(const TileLine& line, int first, Integers index) {
@@ -88,18 +80,24 @@ HWY_INLINE Neighbours permuteAll(const TileLine& line, int first, Integers index
           permute(line.imaginary + first + 1, index)};
 }
 
+HWY_INLINE Neighbours gather(const TileLine& line, Integers index) {
+  const F f;
+  return {hn::GatherIndex(f, line.real, index), hn::GatherIndex(f, line.real + 1, index), hn::GatherIndex(f, line.imaginary, index),
+          hn::GatherIndex(f, line.imaginary + 1, index)};
+}
+
 /// Pixels beside each other along the track hear nearly the same samples: a few blocks of two registers hold them all.
 HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
-  constexpr int kMostBlocks = 4;
+  constexpr int kMostBlocks = 4, kBlock = 32;
   const I i;
-  const auto block = hn::Set(i, static_cast<int>(2 * hn::Lanes(i)));
+  const auto block = hn::Set(i, kBlock);
   int first = hn::GetLane(hn::MinOfLanes(i, index));
   auto inside = hn::Sub(index, hn::Set(i, first));
   auto found = permuteAll(line, first, inside);
   auto beyond = hn::Not(hn::Lt(inside, block));
   for (int blocks = 1; !hn::AllFalse(i, beyond); ++blocks) {
     if (blocks == kMostBlocks) return gather(line, index);
-    first += static_cast<int>(2 * hn::Lanes(i));
+    first += kBlock;
     inside = hn::Sub(inside, block);
     const auto more = permuteAll(line, first, inside);
     const auto chosen = hn::RebindMask(F(), beyond);
@@ -109,8 +107,31 @@ HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
   }
   return found;
 }
+#elif HWY_TARGET <= HWY_AVX2
+constexpr bool kInterleaved = true;
+
+/// One load of 128 bits a pixel brings both neighbours; then each half is transposed.
+HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
+  HWY_ALIGN int at[8];
+  hn::Store(index, I(), at);
+  const auto load = [&](int low, int high) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(line.real + 2 * static_cast<std::ptrdiff_t>(at[low]))),
+                                _mm_loadu_ps(line.real + 2 * static_cast<std::ptrdiff_t>(at[high])), 1);
+  };
+  const __m256 a = load(0, 4), b = load(1, 5), c = load(2, 6), d = load(3, 7);
+  const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d), next_ab = _mm256_unpackhi_ps(a, b), next_cd = _mm256_unpackhi_ps(c, d);
+  return {Floats{_mm256_shuffle_ps(ab, cd, 0x44)}, Floats{_mm256_shuffle_ps(next_ab, next_cd, 0x44)}, Floats{_mm256_shuffle_ps(ab, cd, 0xEE)},
+          Floats{_mm256_shuffle_ps(next_ab, next_cd, 0xEE)}};
+}
 #else
-HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) { return gather(line, index); }
+constexpr bool kInterleaved = true;
+
+HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
+  const F f;
+  const auto at = hn::Add(index, index);
+  return {hn::GatherIndex(f, line.real, at), hn::GatherIndex(f, line.real + 2, at), hn::GatherIndex(f, line.real + 1, at),
+          hn::GatherIndex(f, line.real + 3, at)};
+}
 #endif
 
 /// The line between its samples, linearly.
@@ -162,23 +183,30 @@ void accumulateHere(const Tile& tile, const TileLine* lines, int count, bool mon
     accumulate<false>(tile, lines, count, real, imaginary);
 }
 
-void upsampleHere(const std::complex<float>* line, int samples, const float* taps, int tap_count, int before, int stride, float* real, float* imaginary) {
+void upsampleHere(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine, std::ptrdiff_t plane) {
   const hn::CappedTag<float, kUpsamplingLanes> f;
   for (int n = 0; n < samples; ++n) {
-    const int first = std::max(0, before - n), last = std::min(tap_count, samples + before - n);
+    const int first = std::max(0, taps.before - n), last = std::min(taps.count, samples + taps.before - n);
     for (int lane = 0; lane < kUpsamplingLanes; lane += static_cast<int>(hn::Lanes(f))) {
       auto re = hn::Zero(f), im = hn::Zero(f);
       for (int tap = first; tap < last; ++tap) {
-        const std::complex<float> sample = line[n - before + tap];
-        const auto weights = hn::LoadU(f, taps + tap * kUpsamplingLanes + lane);
+        const std::complex<float> sample = line[n - taps.before + tap];
+        const auto weights = hn::LoadU(f, taps.values + tap * kUpsamplingLanes + lane);
         re = hn::MulAdd(weights, hn::Set(f, sample.real()), re);
         im = hn::MulAdd(weights, hn::Set(f, sample.imag()), im);
       }
-      hn::StoreU(re, f, real + n * stride + lane);
-      hn::StoreU(im, f, imaginary + n * stride + lane);
+      const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(n) * taps.stride + lane;
+      if (kInterleaved) {
+        hn::StoreInterleaved2(re, im, f, fine + 2 * to);
+      } else {
+        hn::StoreU(re, f, fine + to);
+        hn::StoreU(im, f, fine + plane + to);
+      }
     }
   }
 }
+
+bool interleavesHere() { return kInterleaved; }
 
 const char* targetHere() { return hwy::TargetName(HWY_TARGET); }
 
@@ -193,14 +221,17 @@ namespace sas_motion::imaging {
 HWY_EXPORT(accumulateHere);
 HWY_EXPORT(targetHere);
 HWY_EXPORT(upsampleHere);
+HWY_EXPORT(interleavesHere);
 
 void accumulateTile(const Tile& tile, const TileLine* lines, int count, bool monostatic, float* real, float* imaginary) {
   HWY_DYNAMIC_DISPATCH(accumulateHere)(tile, lines, count, monostatic, real, imaginary);
 }
 
-void upsampleLine(const std::complex<float>* line, int samples, const float* taps, int tap_count, int before, int stride, float* real, float* imaginary) {
-  HWY_DYNAMIC_DISPATCH(upsampleHere)(line, samples, taps, tap_count, before, stride, real, imaginary);
+void upsampleLine(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine, std::ptrdiff_t plane) {
+  HWY_DYNAMIC_DISPATCH(upsampleHere)(line, samples, taps, fine, plane);
 }
+
+bool kernelInterleaves() { return HWY_DYNAMIC_DISPATCH(interleavesHere)(); }
 
 const char* kernelTarget() { return HWY_DYNAMIC_DISPATCH(targetHere)(); }
 

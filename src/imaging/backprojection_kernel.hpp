@@ -3,6 +3,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 
 namespace sas_motion::imaging {
 
@@ -18,7 +19,7 @@ struct TileLine {
   float doppler = 1, doppler_range = 0, doppler_track = 0;  ///< path to a moving receiver over that to a still one, and its gradient [-, 1/m, 1/m]
   float turns = 0;                                          ///< carrier phase at the centre [cycles]
   float position = 0;                                       ///< of the centre's echo after `real`, in [0, 1) [samples]
-  const float* real = nullptr;                              ///< the sample at the centre's echo
+  const float* real = nullptr;                              ///< at the sample before the centre's echo
   const float* imaginary = nullptr;
 };
 
@@ -33,10 +34,19 @@ constexpr int kTileLanes = 32;
 /// Adds `count` lines to the tile's pixels, rows by columns. `monostatic` tells that the first leg counts twice and the second is not there.
 void accumulateTile(const Tile& tile, const TileLine* lines, int count, bool monostatic, float* real, float* imaginary);
 
-/// For each sample of the line `stride` fine samples: the `tap_count` samples from `before` samples earlier on, times `taps`, tap_count x kUpsamplingLanes.
-/// Samples outside the line are zero. Writes kUpsamplingLanes values from the last stride on.
-void upsampleLine(const std::complex<float>* line, int samples, const float* taps, int tap_count, int before, int stride, float* real, float* imaginary);
 constexpr int kUpsamplingLanes = 16;
+struct UpsamplingTaps {
+  const float* values = nullptr;  ///< count x kUpsamplingLanes
+  int count = 0;
+  int before = 0;  ///< samples before the one in hand that the first tap is for
+  int stride = 0;  ///< fine samples a sample; at most kUpsamplingLanes
+};
+
+/// Complex values lie beside each other in a fine line, or the imaginary parts lie a plane behind the real ones: as the instructions like it.
+bool kernelInterleaves();
+
+/// A line on the finer grid; samples outside the line are zero. Writes kUpsamplingLanes values from the last stride on.
+void upsampleLine(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine, std::ptrdiff_t plane);
 
 const char* kernelTarget();
 

@@ -13,10 +13,11 @@
 namespace sas_motion::imaging {
 namespace {
 
-constexpr std::size_t kFewLines = 4;    // summed line by line
+constexpr std::size_t kFewLines = 4;  // summed line by line
 constexpr std::size_t kChildren = 4;
-constexpr double kOversampling = 2;     // of polar images, both ways
-constexpr int kMarginPerLevel = 6;      // range samples: a parent's margin and the taps beyond it
+constexpr double kOversampling = 2;          // of polar images, both ways
+constexpr int kMarginPerLevel = 6;           // range samples: a parent's margin and the taps beyond it
+constexpr double kLargestCosineStep = 0.03;  // the taps beyond the grid then stay well away from the track's own direction
 
 class Factorization {
  public:
@@ -37,7 +38,8 @@ class Factorization {
   std::vector<PolarImage> children(std::size_t first, std::size_t last, int level, int threads) const {
     const std::size_t count = std::min(kChildren, last - first);
     std::vector<PolarImage> parts(count, PolarImage(grid_, grid_.origin, 1, 1, 0));
-    forEachTask(count, threads, [&](std::size_t i) { parts[i] = aperture(first + (last - first) * i / count, first + (last - first) * (i + 1) / count, level); });
+    forEachTask(count, threads,
+                [&](std::size_t i) { parts[i] = aperture(first + (last - first) * i / count, first + (last - first) * (i + 1) / count, level); });
     return parts;
   }
 
@@ -61,8 +63,9 @@ class Factorization {
     for (std::size_t i = first; i < last; ++i) centre += phaseCentre(i) / static_cast<double>(last - first);
     double half_length = 0;
     for (std::size_t i = first; i < last; ++i) half_length = std::max(half_length, (phaseCentre(i) - centre).norm());
-    const double shortest_wave = lines_.sound_speed / (lines_.carrier + lines_.sample_rate / 2), range_step = lines_.sound_speed / (2 * lines_.sample_rate) * 1.5 / kOversampling;
-    const double cosine_step = shortest_wave / (2 * std::max(2 * half_length, shortest_wave)) / kOversampling;
+    const double shortest_wave = lines_.sound_speed / (lines_.carrier + lines_.sample_rate / 2),
+                 range_step = lines_.sound_speed / (2 * lines_.sample_rate) * 1.5 / kOversampling;
+    const double cosine_step = std::min(kLargestCosineStep, shortest_wave / (4 * half_length) / kOversampling);
     return {grid_, centre, range_step, cosine_step, kMarginPerLevel * level};
   }
 

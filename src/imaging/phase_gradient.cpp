@@ -80,7 +80,7 @@ void detrend(std::vector<double>& phase, const std::vector<std::size_t>& bins) {
   for (const std::size_t k : bins) phase[k] -= mean + slope * (static_cast<double>(k) - middle);
 }
 
-/// The phase by summing the maximum-likelihood gradient, arg sum conj(G_k) G_{k+1} over the rows. [Wahl1994, eq 7]
+/// The phase by summing the maximum-likelihood gradient, arg sum conj(G_k) G_{k+1} over the rows. [Wahl1994]
 std::vector<double> commonPhase(const Rows& spectra, std::size_t gap, const std::vector<std::size_t>& bins) {
   const std::size_t n = spectra[0].size();
   std::vector<double> phase(n, 0.0);

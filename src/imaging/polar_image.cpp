@@ -20,7 +20,9 @@ const std::vector<Taps>& tapTable() {
   static const std::vector<Taps> table = [] {
     std::vector<Taps> rows(kPhases + 1);
     for (int phase = 0; phase <= kPhases; ++phase)
-      for (int tap = 0; tap < kTaps; ++tap) rows[static_cast<std::size_t>(phase)][static_cast<std::size_t>(tap)] = static_cast<float>(kaiserSinc(static_cast<double>(phase) / kPhases + kBefore - tap, kTaps, 5.4));
+      for (int tap = 0; tap < kTaps; ++tap)
+        rows[static_cast<std::size_t>(phase)][static_cast<std::size_t>(tap)] =
+            static_cast<float>(kaiserSinc(static_cast<double>(phase) / kPhases + kBefore - tap, kTaps, 5.4));
     return rows;
   }();
   return table;
@@ -49,7 +51,7 @@ PolarImage::PolarImage(const ImageGrid& grid, const Eigen::Vector3d& centre, dou
 }
 
 void PolarImage::coverGrid(const ImageGrid& grid, int margin) {
-  constexpr int kSteps = 64, kCosineMargin = 8;
+  constexpr int kSteps = 64, kCosineMargin = 6;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   PolarPoint least{kInfinity, kInfinity}, most{-kInfinity, -kInfinity};
   for (int i = 0; i <= kSteps; ++i)
@@ -82,7 +84,8 @@ std::complex<float> PolarImage::between(const PolarPoint& polar) const {
   if (!range.inside(ranges_) || !cosine.inside(cosines_)) return 0;
   float real = 0, imaginary = 0;
   for (int k = 0; k < kTaps; ++k) {
-    const auto* const samples = reinterpret_cast<const float*>(&values_[static_cast<std::size_t>(cosine.first + k) * static_cast<std::size_t>(ranges_) + static_cast<std::size_t>(range.first)]);
+    const auto* const samples = reinterpret_cast<const float*>(
+        &values_[static_cast<std::size_t>(cosine.first + k) * static_cast<std::size_t>(ranges_) + static_cast<std::size_t>(range.first)]);
     float re = 0, im = 0;
     for (int i = 0; i < kTaps; ++i) {
       re += (*range.taps)[static_cast<std::size_t>(i)] * samples[2 * i];

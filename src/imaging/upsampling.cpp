@@ -26,8 +26,8 @@ Upsampling::Upsampling() : taps_(kTaps * kUpsamplingLanes) {
       taps_[static_cast<std::size_t>(tap * kUpsamplingLanes + phase)] = static_cast<float>(raisedKernel(static_cast<double>(phase) / kFactor + kBefore - tap));
 }
 
-void Upsampling::apply(const std::complex<float>* line, int samples, float* real, float* imaginary) const {
-  upsampleLine(line, samples, taps_.data(), kTaps, kBefore, kFactor, real, imaginary);
+void Upsampling::apply(const std::complex<float>* line, int samples, float* fine, std::ptrdiff_t plane) const {
+  upsampleLine(line, samples, {taps_.data(), kTaps, kBefore, kFactor}, fine, plane);
 }
 
 }  // namespace sas_motion::imaging

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 namespace sas_motion::imaging {
@@ -15,8 +16,8 @@ class Upsampling {
   static constexpr int kSlack = 7;
 
   Upsampling();
-  /// Fine samples 0 ... kFactor samples - 1, in two planes. Up to kSlack values behind them are overwritten with anything.
-  void apply(const std::complex<float>* line, int samples, float* real, float* imaginary) const;
+  /// Fine samples 0 ... kFactor samples - 1, and up to kSlack more of no meaning, in the kernel's order.
+  void apply(const std::complex<float>* line, int samples, float* fine, std::ptrdiff_t plane) const;
 
  private:
   std::vector<float> taps_;  // kTaps x kUpsamplingLanes
