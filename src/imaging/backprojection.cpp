@@ -78,7 +78,8 @@ class FineLines {
   /// Points the tile's line at the sample before the centre's echo. False where no pixel of the tile can hear anything.
   bool aim(std::size_t line, double path_length, TileLine& result) {
     const double position = lines_.position(path_length) * Upsampling::kFactor, floor = std::floor(position);
-    if (!(floor > -padding_ && floor < lines_.samples * Upsampling::kFactor + padding_)) return false;
+    if (!(floor > -static_cast<double>(padding_) && floor < static_cast<double>(lines_.samples) * Upsampling::kFactor + static_cast<double>(padding_)))
+      return false;
     const auto offset = static_cast<std::ptrdiff_t>(floor) + 2 * padding_;
     result.position = static_cast<float>(position - floor);
     result.real = fine(line - first_, offset);

@@ -162,7 +162,8 @@ void accumulate(const Tile& tile, const TileLine* lines, int count, float* real,
     for (int column = 0; column < tile.columns; column += 2 * lanes) {
       const auto track = hn::MulAdd(hn::Iota(f, static_cast<float>(column)), step, hn::Set(f, tile.first_track));
       const auto next_track = hn::MulAdd(hn::Iota(f, static_cast<float>(column + lanes)), step, hn::Set(f, tile.first_track));
-      float *const re = real + row * tile.columns + column, *const im = imaginary + row * tile.columns + column;
+      const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(row) * tile.columns + column;
+      float *const re = real + pixel, *const im = imaginary + pixel;
       Complexes sum{hn::LoadU(f, re), hn::LoadU(f, im)}, next{hn::LoadU(f, re + lanes), hn::LoadU(f, im + lanes)};
       for (int i = 0; i < count; ++i) {
         addLine<kMonostatic>(tile, lines[i], range, track, sum);
@@ -191,7 +192,7 @@ void upsampleHere(const std::complex<float>* line, int samples, const Upsampling
       auto re = hn::Zero(f), im = hn::Zero(f);
       for (int tap = first; tap < last; ++tap) {
         const std::complex<float> sample = line[n - taps.before + tap];
-        const auto weights = hn::LoadU(f, taps.values + tap * kUpsamplingLanes + lane);
+        const auto weights = hn::LoadU(f, taps.values + static_cast<std::ptrdiff_t>(tap) * kUpsamplingLanes + lane);
         re = hn::MulAdd(weights, hn::Set(f, sample.real()), re);
         im = hn::MulAdd(weights, hn::Set(f, sample.imag()), im);
       }

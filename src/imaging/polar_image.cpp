@@ -87,9 +87,9 @@ std::complex<float> PolarImage::between(const PolarPoint& polar) const {
     const auto* const samples = reinterpret_cast<const float*>(
         &values_[static_cast<std::size_t>(cosine.first + k) * static_cast<std::size_t>(ranges_) + static_cast<std::size_t>(range.first)]);
     float re = 0, im = 0;
-    for (int i = 0; i < kTaps; ++i) {
-      re += (*range.taps)[static_cast<std::size_t>(i)] * samples[2 * i];
-      im += (*range.taps)[static_cast<std::size_t>(i)] * samples[2 * i + 1];
+    for (std::size_t i = 0; i < kTaps; ++i) {
+      re += (*range.taps)[i] * samples[2 * i];
+      im += (*range.taps)[i] * samples[2 * i + 1];
     }
     real += (*cosine.taps)[static_cast<std::size_t>(k)] * re;
     imaginary += (*cosine.taps)[static_cast<std::size_t>(k)] * im;
