@@ -56,8 +56,11 @@ json residualsOf(const Comparison& comparison, const Estimated& e) {
 
 json estimatorOf(const Comparison& comparison, const Estimated& e, Stamp begin) {
   if (!e.failure.empty()) return {{"failure", e.failure}};
-  return {{"x", states(e.x.head<kStates>())}, {"sigma", states(e.sigma().head<kStates>())}, {"lock_ins", e.lock_ins},
-          {"trace", traceOf(e, begin)},       {"channels", residualsOf(comparison, e)}};
+  return {{"x", states(e.x.head<kStates>())},
+          {"sigma", states(e.sigma().head<kStates>())},
+          {"lock_ins", e.lock_ins},
+          {"trace", traceOf(e, begin)},
+          {"channels", residualsOf(comparison, e)}};
 }
 
 /// The vessel from the transponder at each ping, and the simulator's labels where there are some.
@@ -85,6 +88,7 @@ std::string calibrationTrace(const CalibrationResult& result) {
   tree["conclusion"] = result.conclusion();
   tree["verdict"] = comparison.observability.verdict;
   tree["warnings"] = comparison.warnings;
+  tree["channels"] = channelNames(comparison.problem.model.mode());
   tree["answer"] = comparison.best().name;
   tree["unknowns"] = std::vector<std::string>(unknownNames().begin(), unknownNames().begin() + kStates);
   tree["bound"] = states(comparison.observability.bound.head<kStates>());
@@ -94,7 +98,10 @@ std::string calibrationTrace(const CalibrationResult& result) {
   tree["left_out"] = result.recording.left_out;
   if (const auto truth = result.truth()) tree["truth"] = states(*truth);
   tree["pings"] = pingsOf(result, begin);
-  for (const auto& e : comparison.estimates) tree["estimators"][e.name] = estimatorOf(comparison, e, begin);
+  for (const auto& e : comparison.estimates) {
+    tree["order"].push_back(e.name);
+    tree["estimators"][e.name] = estimatorOf(comparison, e, begin);
+  }
   return tree.dump() + "\n";
 }
 
