@@ -34,12 +34,12 @@ function convergenceFigure(chosen, theme) {
 }
 
 function residualsFigure(chosen, theme) {
-  const {t, labelled} = data.pings;
-  const rows = channelsOf(chosen).map(([channel, {residual}]) => {
+  const {t} = data.pings;
+  const rows = channelsOf(chosen).map(([channel, {residual, outlier}]) => {
     const mark = (name, keep, marker) => ({name, x: pick(t, keep), y: pick(residual, keep), mode: 'markers', marker, hovertemplate: '%{x:.0f} s: %{y:.2f} σ'});
     const traces = [mark('residual', i => !beyond(residual[i]), {color: colour(chosen, theme), size: 4, opacity: 0.55}),
       mark('beyond 3σ', i => beyond(residual[i]), {color: theme.bad, size: 6, symbol: 'x-thin', line: {color: theme.bad, width: 1.5}})];
-    if (labelled) traces.push(mark('labelled outlier', i => labelled[i] && beyond(residual[i]), {color: theme.warn, size: 10, symbol: 'circle-open', opacity: 0.8}));
+    if (outlier) traces.push(mark('outlier by its label', i => outlier[i], {color: theme.warn, size: 9, symbol: 'circle-open'}));
     return [`${channel.replace('_', ' ')} [σ]`, traces, {uirevision: chosen}];
   });
   const band = (_, i) => ({type: 'rect', xref: 'paper', x0: 0, x1: 1, yref: `y${i ? i + 1 : ''}`, y0: -OUTLIER, y1: OUTLIER, fillcolor: theme.shade, line: {width: 0}, layer: 'below'});

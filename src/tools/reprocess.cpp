@@ -40,9 +40,7 @@ struct Options {
 
 /// What identifies a finished bag: the same input, configuration and estimators would give the same bytes again.
 json identity(const std::string& bag, const Options& options) {
-  return {{"input", Fingerprint::ofFile(bag)},
-          {"config", options.config.empty() ? "built in" : Fingerprint::ofFile(options.config)},
-          {"estimators", options.estimators}};
+  return {{"input", Fingerprint::ofFile(bag)}, {"config", options.config.empty() ? "built in" : Fingerprint::ofFile(options.config)}, {"estimators", options.estimators}};
 }
 
 json toJson(const ReprocessReport& report) {
