@@ -23,7 +23,8 @@ std::string topicOf(const BagReader& bag, const std::string& file, const std::st
     if (connection.type == type) return connection.topic;
     throw std::runtime_error(fmt::format("{}: topic {} is of type {} but {} is needed", file, wanted, connection.type, type));
   }
-  throw std::runtime_error(fmt::format("{}: no topic {} ({}), {}; name another under topics: in the configuration, 'rosbag info' lists what there is", file, wanted, type, use));
+  throw std::runtime_error(
+      fmt::format("{}: no topic {} ({}), {}; name another under topics: in the configuration, 'rosbag info' lists what there is", file, wanted, type, use));
 }
 
 /// What holds for the whole bag, whenever it was recorded: transforms and surveyed transponders.
@@ -62,17 +63,19 @@ void takeCounts(const UsblIngest& ingest, UsblRecording& recording) {
   const auto& counts = ingest.counts();
   count(recording.refused, "GNSS messages without a fix", counts.no_fix);
   count(recording.refused, "attitude messages without an orientation", counts.no_attitude);
-  count(recording.refused, fmt::format("messages of a frame without a transform to the base frame, first {}", counts.frame), counts.unknown_frame);
+  count(recording.refused, fmt::format("messages of frames without a transform to the base frame ({})", fmt::join(counts.frames, ", ")), counts.unknown_frame);
   count(recording.refused, "measurements of another array", counts.other_array);
   count(recording.refused, "transponders whose frame_id is no number", counts.no_id);
 }
 
 /// Why there is not a single ping, and what to do.
 std::string whyNoPing(const std::string& file, const UsblSettings& settings, const UsblRecording& recording, const UsblIngest& ingest) {
-  if (recording.readings == 0 && !settings.array_frame.empty()) return fmt::format("{}: no measurement of the array {}; check frames.array", file, settings.array_frame);
+  if (recording.readings == 0 && !settings.array_frame.empty())
+    return fmt::format("{}: no measurement of the array {}; check frames.array", file, settings.array_frame);
   if (recording.readings == 0) return fmt::format("{}: topic {} holds no measurement", file, settings.measurement_topic);
   if (ingest.transponders().empty())
-    return fmt::format("{}: topic {} holds no transponder whose frame_id is a number, its id; without its surveyed position nothing can be calibrated", file, settings.transponder_topic);
+    return fmt::format("{}: topic {} holds no transponder whose frame_id is a number, its id; without its surveyed position nothing can be calibrated", file,
+                       settings.transponder_topic);
   std::vector<std::string> reasons;
   for (const auto* counts : {&recording.left_out, &recording.refused})
     for (const auto& [reason, number] : *counts) reasons.push_back(fmt::format("{} {}", number, reason));

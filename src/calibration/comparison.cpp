@@ -14,8 +14,8 @@
 namespace sas_motion::usbl {
 namespace {
 
-constexpr double kAgree = 0.99;       // probability that two honest answers are no further apart
-constexpr double kFarFromPrior = 4;   // standard deviations
+constexpr double kAgree = 0.99;         // probability that two honest answers are no further apart
+constexpr double kFarFromPrior = 4;     // standard deviations
 constexpr double kNoiseMisStated = 10;  // factor on the standard deviation that is worth a word
 constexpr double kManyOutliers = 0.3;
 
@@ -53,7 +53,9 @@ Estimated runBatch(const Problem& problem, const Config& config, const Solver& s
   return result;
 }
 
-bool beyondTheMounting(const Prior& prior) { return std::any_of(prior.estimated.begin() + kStates, prior.estimated.end(), [](bool b) { return b; }); }
+bool beyondTheMounting(const Prior& prior) {
+  return std::any_of(prior.estimated.begin() + kStates, prior.estimated.end(), [](bool b) { return b; });
+}
 
 /// The estimator whose word counts; estimates.size() where none has one.
 std::size_t answerOf(const std::vector<Estimated>& estimates, const Config& config) {
@@ -92,7 +94,8 @@ std::vector<std::string> warningsOf(const Comparison& comparison) {
     const ChannelStatistics statistics = channelStatistics(comparison, comparison.best(), i);
     if (statistics.count == 0) continue;
     if (statistics.noise > kNoiseMisStated || statistics.noise < 1 / kNoiseMisStated)
-      warnings.push_back(fmt::format("the noise of {} is {:.2g} times the stated one: check what the driver states, and the axes", channels[static_cast<std::size_t>(i)], statistics.noise));
+      warnings.push_back(fmt::format("the noise of {} is {:.2g} times the stated one: check what the driver states, and the axes",
+                                     channels[static_cast<std::size_t>(i)], statistics.noise));
     if (static_cast<double>(statistics.outliers) > kManyOutliers * static_cast<double>(statistics.count))
       warnings.push_back(fmt::format("{} of {} readings of {} are outliers", statistics.outliers, statistics.count, channels[static_cast<std::size_t>(i)]));
   }
@@ -109,10 +112,12 @@ std::vector<std::string> estimatorNames() {
 
 std::array<std::string, kChannels> channelNames(Mode mode) {
   const bool angles = mode == Mode::AzimuthElevation || mode == Mode::Azimuth;
-  return angles ? std::array<std::string, kChannels>{"range", "azimuth", "elevation"} : std::array<std::string, kChannels>{"range", "to_starboard", "to_forward"};
+  return angles ? std::array<std::string, kChannels>{"range", "azimuth", "elevation"}
+                : std::array<std::string, kChannels>{"range", "to_starboard", "to_forward"};
 }
 
-Comparison compare(const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const Solver& solve, const std::function<void()>& progress) {
+Comparison compare(const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const Solver& solve,
+                   const std::function<void()>& progress) {
   Comparison result{{Model(config.mode), config.prior, pings, Vector<kChannels>::Ones()}, {}, 0, {}, 0, true, {}, ""};
   for (auto& ping : result.problem.pings) ping.reading = result.problem.model.convert(ping.reading);
   std::vector<std::string> all = names;

@@ -37,8 +37,8 @@ void keepRecent(Map& samples) {
 }  // namespace
 
 const std::string& omissionText(Omission omission) {
-  static const std::array<std::string, kOmissions> texts{"without a usable channel",          "of a transponder without a position",
-                                                         "before the first GNSS fix",         "where GNSS positions pause or end",
+  static const std::array<std::string, kOmissions> texts{"without a usable channel",     "of a transponder without a position",
+                                                         "before the first GNSS fix",    "where GNSS positions pause or end",
                                                          "where attitudes pause or end", "late or twice"};
   return texts[static_cast<std::size_t>(omission)];
 }

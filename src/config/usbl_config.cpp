@@ -33,7 +33,8 @@ template <class Part>
 void readThree(YamlSection& yaml, const std::string& key, Part&& part, double unit, double lower) {
   std::vector<double> numbers{part(0) / unit, part(1) / unit, part(2) / unit};
   yaml.numbers(key, numbers, 3);
-  if (*std::min_element(numbers.begin(), numbers.end()) < lower) yaml.fail(key, fmt::format("must be numbers {}", lower == kTiny ? "above 0" : fmt::format("of at least {}", lower)));
+  if (*std::min_element(numbers.begin(), numbers.end()) < lower)
+    yaml.fail(key, fmt::format("must be numbers {}", lower == kTiny ? "above 0" : fmt::format("of at least {}", lower)));
   for (int i = 0; i < 3; ++i) part(i) = numbers[static_cast<std::size_t>(i)] * unit;
 }
 

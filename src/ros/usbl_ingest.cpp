@@ -12,7 +12,8 @@ void UsblIngest::takeFix(const sensor_msgs::NavSatFix& message) {
     ++counts_.no_fix;
     return;
   }
-  if (const auto T = sensorAt(message.header.frame_id)) builder_.addPosition(stampOf(message.header.stamp), geodeticOf(message), bodyVectorOf(T->translation()));
+  if (const auto T = sensorAt(message.header.frame_id))
+    builder_.addPosition(stampOf(message.header.stamp), geodeticOf(message), bodyVectorOf(T->translation()));
 }
 
 void UsblIngest::takeTransponder(const sensor_msgs::NavSatFix& message) {
@@ -58,7 +59,8 @@ std::optional<Transform> UsblIngest::sensorAt(const std::string& frame) {
   if (found != known_.end()) return found->second;
   const auto T = lookUp(frame);
   if (T) return known_[frame] = *T;  // sensors are fixed to the vessel
-  if (counts_.unknown_frame++ == 0) counts_.frame = frame;
+  ++counts_.unknown_frame;
+  counts_.frames.insert(frame);
   return std::nullopt;
 }
 

@@ -62,12 +62,13 @@ std::string errors(const CalibrationResult& result) {
 std::string residuals(const CalibrationResult& result) {
   const Comparison& comparison = result.comparison;
   const auto channels = channelNames(comparison.problem.model.mode());
-  std::string text = fmt::format("\nresiduals of {}; mean and rms without outliers [m, deg]\n", comparison.best().name) + row("", {"readings", "outliers", "mean", "rms", "noise over stated"});
+  std::string text = fmt::format("\nresiduals of {}; mean and rms without outliers [m, deg]\n", comparison.best().name) +
+                     row("", {"readings", "outliers", "mean", "rms", "noise over stated"});
   for (int i = 0; i < kChannels; ++i) {
     const ChannelStatistics s = channelStatistics(comparison, comparison.best(), i);
     const double unit = i == 0 || comparison.problem.model.mode() == Mode::DirectionCosines ? 1 : kRadPerDeg;
     text += row(channels[static_cast<std::size_t>(i)], {fmt::format("{}", s.count), fmt::format("{}", s.outliers), fmt::format("{:.4f}", s.mean / unit),
-                                                       fmt::format("{:.4f}", s.rms / unit), fmt::format("{:.3f}", s.noise)});
+                                                        fmt::format("{:.4f}", s.rms / unit), fmt::format("{:.3f}", s.noise)});
   }
   return text + fmt::format("pings with outliers, minute by minute: {}\n", fmt::join(result.outliersByMinute(), " "));
 }
@@ -76,14 +77,14 @@ std::string residuals(const CalibrationResult& result) {
 
 std::string calibrationTable(const CalibrationResult& result) {
   const Comparison& comparison = result.comparison;
-  std::string text = fmt::format("{}: {} pings of {} measurements of {}, {}{}\n\n", result.bag, comparison.problem.pings.size(), result.recording.readings,
-                                 result.arrayFrame(), modeName(comparison.problem.model.mode()),
-                                 result.recording.has_nominal ? "; corrections of the nominal mounting" : "");
+  std::string text =
+      fmt::format("{}: {} pings of {} measurements of {}, {}{}\n\n", result.bag, comparison.problem.pings.size(), result.recording.readings,
+                  result.arrayFrame(), modeName(comparison.problem.model.mode()), result.recording.has_nominal ? "; corrections of the nominal mounting" : "");
   text += estimates(result) + errors(result) + residuals(result);
   for (const auto* counts : {&result.recording.left_out, &result.recording.refused})
     for (const auto& [reason, number] : *counts) text += fmt::format("left out: {} {}\n", number, reason);
   for (const auto& e : comparison.estimates) {
-    if (e.lock_ins > 0) text += fmt::format("{}: locked in {} times and started anew\n", e.name, e.lock_ins);
+    if (e.lock_ins > 0) text += fmt::format("{}: had locked in and started anew, times: {}\n", e.name, e.lock_ins);
     if (!e.failure.empty()) text += fmt::format("failed: {}\n", e.failure);
   }
   text += fmt::format("singular values of the pings' information over the prior's: {:.3g}\n", fmt::join(comparison.observability.singular_values, ", "));

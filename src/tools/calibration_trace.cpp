@@ -38,39 +38,42 @@ json traceOf(const Estimated& e, Stamp begin) {
   return trace;
 }
 
-/// Over time, channel by channel: residuals over the estimated noise, and that noise over the stated one.
-json residualsOf(const Comparison& comparison, const Estimated& e) {
+/// Over time, channel by channel: residuals over the estimated noise, that noise over the stated one, and the simulator's labels, where there are some.
+json residualsOf(const CalibrationResult& result, const Estimated& e) {
+  const Comparison& comparison = result.comparison;
   const auto channels = channelNames(comparison.problem.model.mode());
   json columns;
   for (std::size_t i = 0; i < comparison.problem.pings.size(); ++i) {
     const Vector<kChannels> whitened = whitenedResidual(comparison, e, i);
+    const auto label = result.recording.outlier.find(comparison.problem.pings[i].stamp);
     for (int c = 0; c < kChannels; ++c) {
       const bool has = comparison.problem.pings[i].reading.has(c);
       auto& channel = columns[channels[static_cast<std::size_t>(c)]];
       channel["residual"].push_back(has ? json(shortened(whitened(c))) : json());
       channel["noise"].push_back(shortened(e.noise[i](c)));
+      if (!result.recording.outlier.empty()) channel["outlier"].push_back(label != result.recording.outlier.end() && label->second[static_cast<std::size_t>(c)]);
     }
   }
   return columns;
 }
 
-json estimatorOf(const Comparison& comparison, const Estimated& e, Stamp begin) {
+json estimatorOf(const CalibrationResult& result, const Estimated& e, Stamp begin) {
   if (!e.failure.empty()) return {{"failure", e.failure}};
-  return {{"x", states(e.x.head<kStates>())}, {"sigma", states(e.sigma().head<kStates>())}, {"lock_ins", e.lock_ins},
-          {"trace", traceOf(e, begin)},       {"channels", residualsOf(comparison, e)}};
+  return {{"x", states(e.x.head<kStates>())},
+          {"sigma", states(e.sigma().head<kStates>())},
+          {"lock_ins", e.lock_ins},
+          {"trace", traceOf(e, begin)},
+          {"channels", residualsOf(result, e)}};
 }
 
-/// The vessel from the transponder at each ping, and the simulator's labels where there are some.
+/// The vessel from the transponder at each ping.
 json pingsOf(const CalibrationResult& result, Stamp begin) {
   json pings;
   for (const auto& ping : result.comparison.problem.pings) {
     pings["t"].push_back(secondsBetween(begin, ping.stamp));
     pings["east"].push_back(shortened(-ping.transponder_map(0)));
     pings["north"].push_back(shortened(-ping.transponder_map(1)));
-    const auto label = result.recording.outlier.find(ping.stamp);
-    if (label != result.recording.outlier.end()) pings["labelled"].push_back(label->second[0] || label->second[1] || label->second[2]);
   }
-  if (pings.contains("labelled") && pings["labelled"].size() != pings["t"].size()) pings.erase("labelled");
   return pings;
 }
 
@@ -85,6 +88,7 @@ std::string calibrationTrace(const CalibrationResult& result) {
   tree["conclusion"] = result.conclusion();
   tree["verdict"] = comparison.observability.verdict;
   tree["warnings"] = comparison.warnings;
+  tree["channels"] = channelNames(comparison.problem.model.mode());
   tree["answer"] = comparison.best().name;
   tree["unknowns"] = std::vector<std::string>(unknownNames().begin(), unknownNames().begin() + kStates);
   tree["bound"] = states(comparison.observability.bound.head<kStates>());
@@ -94,7 +98,10 @@ std::string calibrationTrace(const CalibrationResult& result) {
   tree["left_out"] = result.recording.left_out;
   if (const auto truth = result.truth()) tree["truth"] = states(*truth);
   tree["pings"] = pingsOf(result, begin);
-  for (const auto& e : comparison.estimates) tree["estimators"][e.name] = estimatorOf(comparison, e, begin);
+  for (const auto& e : comparison.estimates) {
+    tree["order"].push_back(e.name);
+    tree["estimators"][e.name] = estimatorOf(result, e, begin);
+  }
   return tree.dump() + "\n";
 }
 

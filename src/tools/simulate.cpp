@@ -64,10 +64,11 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Simulates a scenario into a bag. A towfish's: gnss/fix, imu/data, dvl/twist, /tf_static, and truth/odometry, truth/fix, truth/current, truth/label. "
-               "With 'system: usbl', a calibration's: gnss/fix, imu/data, usbl/measurement, usbl/transponder, /tf_static, and truth/odometry, truth/label, "
-               "truth/usbl_mounting.",
-               "simulate");
+  CLI::App app(
+      "Simulates a scenario into a bag. A towfish's: gnss/fix, imu/data, dvl/twist, /tf_static, and truth/odometry, truth/fix, truth/current, truth/label. "
+      "With 'system: usbl', a calibration's: gnss/fix, imu/data, usbl/measurement, usbl/transponder, /tf_static, and truth/odometry, truth/label, "
+      "truth/usbl_mounting.",
+      "simulate");
   app.add_option("SCENARIO", options.scenario, "scenario to play (YAML)")->required();
   app.add_option("-o,--output", options.out, "bag to write")->required();
   app.add_option("--seed", options.seed, "seed of all noise (default 1)");

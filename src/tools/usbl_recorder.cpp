@@ -16,9 +16,9 @@ using namespace ros_side;
 
 namespace {
 
-constexpr double kTruthRate = 1;                               // [1/s]
-constexpr double kGnssPhase = 0.13, kAttitudePhase = 0.017;    // of their first message after the start [s]
-constexpr std::uint32_t kTransponder = 1;                      // id
+constexpr double kTruthRate = 1;                             // [1/s]
+constexpr double kGnssPhase = 0.13, kAttitudePhase = 0.017;  // of their first message after the start [s]
+constexpr std::uint32_t kTransponder = 1;                    // id
 constexpr const char* kArrayFrame = "usbl_link";
 
 /// Something that happens at a steady rate.
@@ -69,9 +69,7 @@ void UsblRecorder::record(const std::function<void(double)>& progress) {
       case kPing: ping(time, seconds, pose); break;
       case kFix: fix(time, pose); break;
       case kAttitude: attitude(time, pose); break;
-      default:
-        truth(time, pose);
-        progress(1 / kTruthRate);
+      default: truth(time, pose); progress(1 / kTruthRate);
     }
   }
 }

@@ -60,8 +60,9 @@ struct Comparison {
 
 /// Runs filters by name, and batch, which is always run since it cannot lock in. The answer is hvbckf's where it is among them and no further
 /// unknowns are estimated, else batch's. Names must be of filterNames() or batch.
-Comparison compare(const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const Solver& solve = solveIteratively,
-                   const std::function<void()>& progress = [] {});
+Comparison compare(
+    const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const Solver& solve = solveIteratively,
+    const std::function<void()>& progress = [] {});
 
 /// Residuals of a ping over the noise that an estimator saw there; 0 where a channel is absent.
 Vector<kChannels> whitenedResidual(const Comparison& comparison, const Estimated& estimated, std::size_t ping);

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,12 @@ class UsblIngest {
  public:
   /// Messages that gave nothing; readings that gave no ping are counted by the builder.
   struct Counts {
-    std::uint64_t fixes = 0, no_fix = 0;            ///< GNSS messages, and those without a position
-    std::uint64_t attitudes = 0, no_attitude = 0;   ///< attitude messages, and those without an orientation
-    std::uint64_t unknown_frame = 0;                ///< of a frame without a transform to the base frame
-    std::uint64_t other_array = 0;                  ///< measurements of another array
-    std::uint64_t no_id = 0;                        ///< transponders whose frame_id is no number
-    std::string frame;                              ///< the first that is unknown
+    std::uint64_t fixes = 0, no_fix = 0;           ///< GNSS messages, and those without a position
+    std::uint64_t attitudes = 0, no_attitude = 0;  ///< attitude messages, and those without an orientation
+    std::uint64_t unknown_frame = 0;               ///< of a frame without a transform to the base frame
+    std::uint64_t other_array = 0;                 ///< measurements of another array
+    std::uint64_t no_id = 0;                       ///< transponders whose frame_id is no number
+    std::set<std::string> frames;                  ///< that are unknown
   };
 
   /// `transforms` outlives the ingest.
