@@ -27,6 +27,8 @@ else
   campaign survey 100     # the asynchronous survey
   campaign eight_laws 1000
   campaign asynchronous 100
+  campaign usbl 100
+  campaign usbl_lock_in 1000
 fi
 
 echo "bench: predict and update of all four channels"
@@ -35,6 +37,11 @@ venv="$root/.venv"
 [ -x "$venv/bin/python" ] || /usr/bin/python3 -m venv "$venv"
 "$venv/bin/python" -c 'import filterpy' 2>/dev/null || "$venv/bin/pip" install --quiet filterpy==1.4.5 || echo "bench: filterpy could not be installed"
 "$venv/bin/python" "$root/benchmark/compare_filters.py" "$out/filters.json"
+
+echo; echo "bench: USBL calibration: an update of each filter, and the batch"
+"$tools/usbl_speed" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
+echo; echo "bench: USBL calibration: how the noise is followed, and a circle that tells too little"
+"$tools/usbl_figures" $((smoke == 1 ? 3 : 100))
 
 echo; echo "bench: rts beside batch"
 "$tools/smoother_speed" "$nodes"

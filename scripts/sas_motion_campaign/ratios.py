@@ -5,7 +5,7 @@ import numpy as np
 
 from .bootstrap import interval, rounded
 
-AGAINST = ('kf', 'oracle_kf', 'bayes_reference')
+AGAINST = ('kf', 'oracle_kf', 'bayes_reference', 'ckf', 'oracle_ckf')
 
 
 def informed(name):

@@ -10,6 +10,7 @@ from .failures import clean_medians, kept_runs, lockouts
 from .ratios import ratios, to_bound
 
 SCHEMA = 'sas_motion/benchmark/2'
+FIRST = ('position', 'mounting')  # the group that ratios and divergence are about
 OTHER = ('diverged', 'samples', 'nees', 'nis', 'aperture_across', 'locked_out', 'precision', 'recall')  # what is no group of errors
 MEANS = ('aperture_across', 'precision', 'recall')
 
@@ -48,9 +49,9 @@ def summarise_campaign(plan, campaign, records, bounds, resampler):
 
 
 def error_groups(runs):
-    """Returns the groups of errors that the runs have, position first: the one that ratios and divergence are about."""
+    """Returns the groups of errors that the runs have, the one of FIRST first: ratios and divergence are about it."""
     found = {key for results in runs.values() for result in results for key, value in result.items() if key not in OTHER and isinstance(value, dict)}
-    return sorted(found, key=lambda group: (group != 'position', group)) or ['position']
+    return sorted(found, key=lambda group: (group not in FIRST, group)) or ['position']
 
 
 def column(results, *path):

@@ -3,7 +3,9 @@
 """The results as plain text for a terminal."""
 from sas_motion_report.inputs import dig
 
-HEADER = ('estimator', 'RMSE', '95 %', 'median', 'R', '/kf', '/oracle', '/reference', '/bound', '95 %', 'aperture [mm]', 'NEES/n', 'diverged', 'us/update')
+HEADER = ('estimator', 'RMSE', '95 %', 'median', 'R', '/kf', '/oracle', '/reference', '/ckf', '/oracle', '/bound', '95 %', 'aperture [mm]', 'NEES/n', 'diverged', 'us/update')
+
+UNITS = {'position': ' [m]', 'mounting': ' [rad]'}
 
 
 def terminal_table(summary, costs):
@@ -19,20 +21,20 @@ def terminal_table(summary, costs):
     return '\n'.join(lines + [LEGEND])
 
 
-LEGEND = ('RMSE: RMS over the runs, of the first group of errors (position); R: over the same estimator under the first law; /reference: bayes_reference;\n'
+LEGEND = ('RMSE: RMS over the runs, of the first group of errors (position, mounting angles); R: over the same estimator under the first law; /reference: bayes_reference;\n'
           '/bound: posterior Cramér-Rao bound; 95 %: bootstrap over the runs, of the column to its left; NEES/n: expected 1. Diverged runs are counted only.')
 
 
 def header(campaign):
     """Returns the titles, with the unit where it is known."""
-    unit = ' [m]' if campaign['groups'][0] == 'position' else ''
+    unit = UNITS.get(campaign['groups'][0], '')
     return tuple(title + unit if title in ('RMSE', 'median') else title for title in HEADER)
 
 
 def row(campaign, name, found, cost):
     """Returns the cells of one estimator."""
     error, ratios = found['errors'][campaign['groups'][0]], found['ratios']
-    ratio = [fixed(dig(ratios, key, 'value'), 3) for key in ('clean', 'kf', 'oracle_kf', 'bayes_reference', 'bound')]
+    ratio = [fixed(dig(ratios, key, 'value'), 3) for key in ('clean', 'kf', 'oracle_kf', 'bayes_reference', 'ckf', 'oracle_ckf', 'bound')]
     aperture = dig(found, 'aperture_across', 'value')
     return (name, fixed(dig(error, 'rms', 'value'), 4), span(error.get('rms'), 4), fixed(dig(error, 'median', 'value'), 4), *ratio, span(ratios.get('bound'), 3),
             fixed(None if aperture is None else 1e3 * aperture, 2), fixed(dig(found, 'nees', 'full', 'value'), 2), str(found['diverged']), fixed(cost, 2))

@@ -29,13 +29,13 @@ std::string whatRunsDependOn(const std::string& file) {
   std::string all = YAML::Dump(root);
   for (const auto& campaign : root["campaigns"])
     for (const char* key : {"scenario", "config"})
-      if (campaign[key]) all += contents(std::filesystem::path(file).parent_path() / campaign[key].as<std::string>());
+      if (campaign[key] && campaign[key].IsScalar()) all += contents(std::filesystem::path(file).parent_path() / campaign[key].as<std::string>());
   return all;
 }
 
 }  // namespace
 
-Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make) {
+Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters) {
   auto yaml = YamlSection::fromFile(file);
   const std::string folder = std::filesystem::path(file).parent_path();
   Suite suite;
@@ -56,8 +56,10 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
       suite.campaigns.push_back(makeTowfishSystem(item, folder, make));
     else if (kind == "constant_velocity")
       suite.campaigns.push_back(makeConstantVelocitySystem(item));
+    else if (kind == "usbl")
+      suite.campaigns.push_back(makeUsblSystem(item, folder, fitters));
     else
-      item.fail("system", fmt::format("is '{}' but must be towfish or constant_velocity", kind));
+      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity or usbl", kind));
     suite.campaigns.back()->title = name;
     suite.campaigns.back()->kind = kind;
     item.finish();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sas_motion/calibration/fitter.hpp"
 #include "sas_motion/campaign/system.hpp"
 #include "sas_motion/campaign/towfish_campaign.hpp"
 #include "sas_motion/evaluation/bounds.hpp"
@@ -11,6 +12,7 @@ namespace sas_motion {
 /// The systems of a suite, each read from its campaign. Throw ConfigError.
 std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::string& folder, const towfish::EstimatorFactory& make);
 std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign);
+std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string& folder, const usbl::FitterFactory& fitters);
 
 /// The bound of each group of states, by its name; empty where one is not known at all.
 template <int N>

@@ -46,6 +46,7 @@ void YamlSection::fail(const std::string& key, const std::string& what) const { 
 bool YamlSection::has(const std::string& key) const { return node_.IsMap() && node_[key].IsDefined(); }
 
 bool YamlSection::isList(const std::string& key) const { return has(key) && node_[key].IsSequence(); }
+bool YamlSection::isMapping(const std::string& key) const { return has(key) && node_[key].IsMap(); }
 
 YAML::Node YamlSection::take(const std::string& key) {
   asked_.insert(key);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "sas_motion/calibration/calibrator.hpp"
 #include "sas_motion/filters/bank_kalman_filter.hpp"
 #include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
@@ -14,6 +15,7 @@
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
 #include "sas_motion/models/towfish.hpp"
+#include "sas_motion/simulation/usbl_simulator.hpp"
 #include "support.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -74,6 +76,32 @@ void expectNoAllocation(const char* name, const SigmaPointFilter<kStates, Count>
   EXPECT_TRUE(belief.mean.allFinite());
 }
 
+/// A calibration's filter over the pings of a figure-eight with outliers, without its start.
+void expectNoAllocation(const std::string& name, usbl::Mode mode) {
+  usbl::Scenario scenario;
+  scenario.duration = 40;
+  scenario.noise.fill(testing::contaminated(0.2, 30));
+  const auto pings = usbl::simulatePings(scenario, 72);
+  usbl::Config config;
+  config.mode = mode;
+  const usbl::CubatureFilter filter(*usbl::filterOptions(name, config));
+  const usbl::Model model(mode);
+  usbl::CubatureFilter::Belief belief(Gaussian<usbl::kStates>{usbl::State::Zero(), config.prior.sigma.head<usbl::kStates>().cwiseAbs2().asDiagonal()});
+  const Matrix<usbl::kStates> Q = 1e-12 * Matrix<usbl::kStates>::Identity();
+  const auto difference = [&](const Vector<3>& y, const Vector<3>& x) { return model.difference(y, x); };
+  const long before = allocations;
+  for (const auto& labelled : pings) {
+    const usbl::Reading reading = model.convert(labelled.ping.reading);
+    Vector<3> z = Vector<3>::Zero(), variance = Vector<3>::Ones(), present = Vector<3>::Zero();
+    for (int i = 0; i < 3; ++i)
+      if (reading.has(i)) z(i) = reading.value(i), variance(i) = reading.variance(i), present(i) = 1;
+    const auto h = [&](const usbl::State& x) { return model.predict(x, labelled.ping); };
+    belief = filter.update(filter.predict(belief, Q), z, variance, present, h, difference).belief;
+  }
+  EXPECT_EQ(allocations - before, 0) << name << ", " << usbl::modeName(mode);
+  EXPECT_TRUE(gaussian(belief).mean.allFinite());
+}
+
 TEST(Allocation, PredictAndUpdateUseNoHeap) {
 #ifdef SAS_MOTION_CANNOT_COUNT
   GTEST_SKIP() << SAS_MOTION_CANNOT_COUNT;
@@ -91,6 +119,9 @@ TEST(Allocation, PredictAndUpdateUseNoHeap) {
   expectNoAllocation("student_t_kf", StudentTKalmanFilter<kStates>({}));
   expectNoAllocation("ckf", SigmaPointFilter(cubaturePoints<kStates>()));
   expectNoAllocation("ukf", SigmaPointFilter(unscentedPoints<kStates>({})));
+  for (const auto& name : usbl::filterNames())
+    for (const usbl::Mode mode : {usbl::Mode::DirectionAngles, usbl::Mode::DirectionCosines, usbl::Mode::AzimuthElevation, usbl::Mode::Azimuth})
+      expectNoAllocation(name, mode);
   for (const auto& name : lossNames())
     for (const bool process : {false, true}) {
       RobustKalmanFilter<kStates>::Options options;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sas_motion/calibration/fitter.hpp"
 #include "sas_motion/campaign/system.hpp"
 #include "sas_motion/campaign/towfish_campaign.hpp"
 
@@ -15,8 +16,8 @@ struct Suite {
   std::uint64_t first_seed = 1;
   std::vector<std::unique_ptr<System>> campaigns;
 
-  /// Files named in a suite are relative to it. Throws ConfigError.
-  static Suite fromFile(const std::string& file, const towfish::EstimatorFactory& make);
+  /// Files named in a suite are relative to it; without `fitters`, usbl campaigns have filters only. Throws ConfigError.
+  static Suite fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters = {});
 
   /// A run: tasks are numbered by campaign, law, then seed.
   struct Task {

@@ -33,6 +33,7 @@ class YamlSection {
 
   bool has(const std::string& key) const;
   bool isList(const std::string& key) const;
+  bool isMapping(const std::string& key) const;
   void number(const std::string& key, double& value, Range range);
   /// A key in degrees for a value in radians.
   void angle(const std::string& key_deg, double& value, Range range_deg);

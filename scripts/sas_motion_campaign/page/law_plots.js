@@ -17,7 +17,8 @@ const bars = triples => ({type: 'data', symmetric: false, thickness: 1.2, width:
 const values = triples => triples.map(t => t ? t[0] : null);
 const logRange = list => [Math.log10(Math.min(...list)) - 0.12, Math.log10(Math.max(...list)) + 0.12];
 const known = list => list.filter(v => Number.isFinite(v) && v > 0);
-const unit = group => group === 'position' ? 'position RMS error [m]' : `${group} RMS error`;
+const UNITS = {position: ' [m]', mounting: ' [rad]'};
+const unit = group => `${group} RMS error${UNITS[group] || ''}`;
 
 /** Ticks of a logarithmic axis that spans so many decades. */
 function ticks(decades) {

@@ -13,7 +13,7 @@ function errorsFigure(view) {
   const band = bound.length ? [{...edge, y: bound.map(b => b === null ? null : -b)}, {...edge, y: bound, fill: 'tonexty', fillcolor: theme.shade}] : [];
   const line = {name: view.estimator, x: trace.time, y: trace.error, mode: 'lines', line: {color: look(view, view.estimator).color, width: 1.3}, hovertemplate: '%{x:.1f} s: %{y:.4g}'};
   const range = reach > 0 ? [-reach, reach] : undefined;
-  return stackedFigure({duration: last(trace.time)}, theme, [['error [m]', [...band, line], {range, uirevision: view.key}]], []);
+  return stackedFigure({duration: last(trace.time)}, theme, [[`error${UNITS[view.campaign.group] || ''}`, [...band, line], {range, uirevision: view.key}]], []);
 }
 
 function consistencyFigure(view) {

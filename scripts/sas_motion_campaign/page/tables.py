@@ -9,7 +9,7 @@ from sas_motion_report.tables import table
 
 from .yardstick import NAMES, contenders, ranked, yardstick
 
-RATIOS = (('clean', 'R'), ('kf', '/ kf'), ('oracle_kf', '/ oracle_kf'), ('bayes_reference', '/ bayes_reference'), ('bound', '/ bound'))
+RATIOS = (('clean', 'R'), ('kf', '/ kf'), ('oracle_kf', '/ oracle_kf'), ('bayes_reference', '/ bayes_reference'), ('ckf', '/ ckf'), ('oracle_ckf', '/ oracle_ckf'), ('bound', '/ bound'))
 
 
 def campaign_tables(campaign, costs, name):
@@ -46,7 +46,8 @@ def failures(campaign, name):
     if not rows:
         return '<p class="note">No run diverged and none locked out.</p>'
     caption = ('Failed runs, of all: diverged (error over 50 times the clean median, or not finite; left out of every mean) '
-               'and locked out (a position wrong by more than five of its own standard deviations for more than five epochs).')
+               'and locked out (a position wrong by more than five of its own standard deviations for more than five epochs; '
+               'of a calibration, an unknown at the end).')
     return table(caption, ['estimator'] + [escape(law) for law in campaign['laws']], rows, f'{name}-failures')
 
 

@@ -8,9 +8,10 @@ from sas_motion_report.inputs import dig, finite
 
 from ..ratios import informed
 
-YARDSTICKS = ('bayes_reference', 'bound', 'oracle_kf', 'best')
+YARDSTICKS = ('bayes_reference', 'bound', 'oracle_kf', 'oracle_ckf', 'best')
 NAMES = {'bayes_reference': 'bayes_reference (told the law)', 'bound': 'the Cramér-Rao bound',
-         'oracle_kf': 'oracle_kf (told the outliers)', 'best': 'the best'}
+         'oracle_kf': 'oracle_kf (told the outliers)', 'oracle_ckf': 'oracle_ckf (told the outliers)',
+         'best': 'the best'}
 
 
 def yardstick(campaign):

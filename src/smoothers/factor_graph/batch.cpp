@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/smoothers/factor_graph/batch.hpp"
 
-#include <gtsam/linear/linearExceptions.h>
 #include <gtsam/nonlinear/GncOptimizer.h>
 #include <gtsam/nonlinear/LevenbergMarquardtOptimizer.h>
 #include <gtsam/nonlinear/Marginals.h>
 
-#include <algorithm>
-#include <cmath>
-#include <exception>
-#include <string>
-
+#include "guarded.hpp"
 #include "sas_motion/smoothers/factor_graph/towfish_factors.hpp"
 
 namespace sas_motion::towfish {
@@ -36,15 +31,6 @@ gtsam::LevenbergMarquardtParams levenbergMarquardt(const SmootherOptions& option
   return params;
 }
 
-/// GTSAM's messages have paragraphs; the first one says what happened.
-std::string firstSentence(std::string text) {
-  const auto begin = text.find_first_not_of(" \n");
-  text = begin == std::string::npos ? "" : text.substr(begin);
-  text = text.substr(0, text.find("\n\n"));
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 std::vector<StateVector> trajectoryOf(const gtsam::Values& values) {
   std::vector<StateVector> trajectory(values.size());
   for (std::size_t k = 0; k < trajectory.size(); ++k) trajectory[k] = values.at<StateVector>(k);
@@ -61,24 +47,6 @@ void addMarginals(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values&
 }
 
 using Factorization = gtsam::Marginals::Factorization;
-
-/// Runs a solver by Cholesky and, where GTSAM finds the system indeterminate, by QR, which stands worse conditioning (nodes a microsecond
-/// apart, long stretches without a sensor). What QR throws becomes data.
-template <class Solve>
-SmootherResult guarded(Solve solve) {
-  SmootherResult result;
-  try {
-    try {
-      result = solve(gtsam::Marginals::CHOLESKY);
-    } catch (const gtsam::IndeterminantLinearSystemException&) {
-      result = solve(gtsam::Marginals::QR);
-    }
-    if (!std::isfinite(result.cost)) result.failure = "the cost is not finite";
-  } catch (const std::exception& error) {
-    result.failure = firstSentence(error.what());
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -99,7 +67,7 @@ gtsam::Values initialValues(const std::vector<StateVector>& trajectory) {
 }
 
 SmootherResult smoothBatch(const SmoothingProblem& problem, const SmootherOptions& options) {
-  return guarded([&](Factorization factorization) {
+  return guarded(SmootherResult(), [&](Factorization factorization) {
     SmootherResult result;
     gtsam::Values values = initialValues(problem.initial);
     std::vector<Loss> stages{options.loss};
@@ -121,7 +89,7 @@ SmootherResult smoothBatch(const SmoothingProblem& problem, const SmootherOption
 }
 
 SmootherResult smoothGnc(const SmoothingProblem& problem, double probability) {
-  return guarded([&](Factorization factorization) {
+  return guarded(SmootherResult(), [&](Factorization factorization) {
     const auto graph = buildGraph(problem, Loss(LossKind::L2));
     gtsam::GncParams<gtsam::LevenbergMarquardtParams> params(levenbergMarquardt({Loss(LossKind::L2), 100, 1e-7}, factorization));
     params.baseOptimizerParams.ordering = ordering(graph, problem.nodes());
