@@ -42,29 +42,29 @@ std::string weakUnknowns(const Observability& result) {
   return list(names);
 }
 
-std::string verdictOf(const Observability& result, std::size_t pings) {
+std::string verdictOf(const Observability& result) {
   if (result.observable) return "every unknown is seen";
   const std::string what = weakUnknowns(result);
   const bool several = what.find(" and ") != std::string::npos;
   return fmt::format("not observable: {} pings on this track cannot {} {}; what is given for {} rests on the prior; sail a figure-eight over the transponder, crossing lines or a circle beside it",
-                     pings, several ? "separate" : "tell", what, several ? "them" : "it");
+                     result.pings, several ? "separate" : "tell", what, several ? "them" : "it");
 }
 
 }  // namespace
 
-Observability observability(const Problem& problem, const Unknowns& x, const Vector<kChannels>& factor) {
+Observability observability(const Matrix<kUnknowns>& data, const Prior& prior, std::size_t pings) {
   Observability result;
+  result.pings = pings;
   for (int i = 0; i < kUnknowns; ++i)
-    if (problem.prior.estimated[static_cast<std::size_t>(i)]) result.unknowns.push_back(i);
+    if (prior.estimated[static_cast<std::size_t>(i)]) result.unknowns.push_back(i);
   const auto n = static_cast<Eigen::Index>(result.unknowns.size());
-  const Matrix<kUnknowns> data = information(problem, x, factor);
-  result.bound = covarianceFrom(data, problem.prior).diagonal().cwiseSqrt();
+  result.bound = covarianceFrom(data, prior).diagonal().cwiseSqrt();
   if (n == 0) return result;
   Eigen::MatrixXd scaled(n, n);
   for (Eigen::Index row = 0; row < n; ++row)
     for (Eigen::Index col = 0; col < n; ++col) {
       const int a = result.unknowns[static_cast<std::size_t>(row)], b = result.unknowns[static_cast<std::size_t>(col)];
-      scaled(row, col) = problem.prior.sigma(a) * data(a, b) * problem.prior.sigma(b);
+      scaled(row, col) = prior.sigma(a) * data(a, b) * prior.sigma(b);
     }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   for (Eigen::Index i = n - 1; i >= 0; --i) result.singular_values.push_back(std::max(0.0, eigen.eigenvalues()(i)));
@@ -72,8 +72,12 @@ Observability observability(const Problem& problem, const Unknowns& x, const Vec
   result.weak_direction.assign(weak.data(), weak.data() + n);
   result.weak_sigma = 1 / std::sqrt(result.singular_values.back());
   result.observable = result.weak_sigma < kWellKnown;
-  result.verdict = verdictOf(result, problem.pings.size());
+  result.verdict = verdictOf(result);
   return result;
+}
+
+Observability observability(const Problem& problem, const Unknowns& x, const Vector<kChannels>& factor) {
+  return observability(information(problem, x, factor), problem.prior, problem.pings.size());
 }
 
 }  // namespace sas_motion::usbl

@@ -10,6 +10,7 @@ namespace sas_motion::usbl {
 
 /// What a track can tell of the unknowns, before any estimate is trusted.
 struct Observability {
+  std::size_t pings = 0;
   std::vector<int> unknowns;             ///< that are estimated, in the order of the vectors below
   std::vector<double> singular_values;   ///< of the pings' information in units of the prior's standard deviations, largest first [-]
   std::vector<double> weak_direction;    ///< where it is least, each part over what it would be known to if the others were known; of unit length
@@ -18,6 +19,9 @@ struct Observability {
   bool observable = false;               ///< the pings know every direction far better than the prior
   std::string verdict;                   ///< in plain words, with what to do
 };
+
+/// Of pings whose information is `data`, without the prior's.
+Observability observability(const Matrix<kUnknowns>& data, const Prior& prior, std::size_t pings);
 
 /// At good noise of the problem's scale whose Fisher information is `factor` over a Gaussian's.
 Observability observability(const Problem& problem, const Unknowns& x, const Vector<kChannels>& factor = Vector<kChannels>::Ones());

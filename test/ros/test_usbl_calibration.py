@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 The sas_motion authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""usbl_calibration.launch plays a bag through the calibration nodelet: it converges, says so, and saves what calibrate_usbl says of the bag."""
+import math
+import re
+
+import pytest
+import rospy
+import toolbox
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray
+from ros_session import wait_until
+from sas_motion.msg import UsblCalibration
+from std_srvs.srv import Trigger
+
+RATE = 60
+SECONDS = 400
+BLIND = toolbox.SCENARIOS / "usbl_centred_circle.yaml"
+SEEING = toolbox.SCENARIOS / "usbl_outliers.yaml"
+
+
+class Heard:
+    """What the nodelet has said so far."""
+
+    def __init__(self):
+        self.calibrations, self.status = [], []
+        self.subscribers = [rospy.Subscriber("hvbckf/calibration", UsblCalibration, self.calibrations.append),
+                            rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)]
+
+    def on_diagnostics(self, array):
+        self.status += [status for status in array.status if status.name == "usbl_calibration: calibration"]
+
+    def close(self):
+        for subscriber in self.subscribers:
+            subscriber.unregister()
+
+
+def call(name):
+    service = f"/usbl_calibration/{name}"
+    rospy.wait_for_service(service, 20)
+    return rospy.ServiceProxy(service, Trigger)()
+
+
+def played(session, scenario, folder):
+    """What was heard of a simulated bag, the answer to ~save, what it wrote, and the bag."""
+    bag = toolbox.simulate(folder / "run.bag", SECONDS, 3, scenario)
+    last = max(message.header.stamp for _, message, _ in toolbox.messages(bag, "usbl/measurement"))
+    heard, output = Heard(), folder / "live.yaml"
+    command = ("roslaunch", "sas_motion", "usbl_calibration.launch", f"bag:={bag}", f"rate:={RATE}", f"output:={output}", "start_delay:=4",
+               "tolerance_deg:=0.3", "tolerance:=0.3")
+    with session.running_process(*command):
+        wait_until(lambda: heard.calibrations and (last - heard.calibrations[-1].header.stamp).to_sec() < 1.5, "the last ping", 60)
+        wait_until(lambda: heard.status and not re.search("starting|no ping", heard.status[-1].message), "diagnostics", 20)
+        answer = call("save")
+        status = heard.status[-1]
+    heard.close()
+    return heard.calibrations, status, answer, output, bag
+
+
+@pytest.fixture(scope="module")
+def seeing(session, sensors, tmp_path_factory):
+    return played(session, SEEING, tmp_path_factory.mktemp("seeing"))
+
+
+def test_it_waits_for_its_first_minute_and_then_converges(seeing):
+    calibrations = seeing[0]
+    assert not calibrations[0].started and not calibrations[0].within_tolerance
+    assert len(calibrations) > 0.9 * SECONDS
+    end = calibrations[-1]
+    assert end.started and end.observable and end.within_tolerance, end.verdict
+    sigma = [math.sqrt(end.covariance[7 * i]) for i in range(6)]
+    truth = [math.radians(2), math.radians(-2), math.radians(3), 0.5, 0.8, 1.0]
+    assert max(abs(a - b) / s for a, b, s in zip(end.correction, truth, sigma)) < 4
+    assert end.transform.translation.x == pytest.approx(end.correction[4]) and end.transform.translation.y == pytest.approx(-end.correction[3])
+
+
+def test_it_says_that_it_is_good_enough(seeing):
+    status = seeing[1]
+    assert status.level == 0 and "within the tolerance" in status.message
+    assert {"mounting_z [deg]", "lever_y [m]"} <= {pair.key for pair in status.values}
+
+
+def test_it_saves_what_calibrate_usbl_says_of_the_bag(seeing, tmp_path):
+    answer, output, bag = seeing[2:]
+    assert answer.success, answer.message
+    live = yaml.safe_load(output.read_text())
+    toolbox.succeed("calibrate_usbl", bag, "-o", tmp_path / "offline.yaml", "--estimators", "hvbckf,batch")
+    offline = yaml.safe_load((tmp_path / "offline.yaml").read_text())
+    assert live["trusted"] and live["static_transform"]["child"] == offline["static_transform"]["child"]
+    if live["pings"] == offline["pings"]:  # the last ping waits for a pose after it, which only the end of a bag replaces
+        assert live["correction"] == offline["correction"]
+    assert offline["pings"] - live["pings"] <= 2
+    sigma = offline["sigma"]
+    for key, spread in (("angles_deg", sigma["angles_deg"]), ("lever_arm", sigma["lever_arm"])):
+        assert max(abs(a - b) / s for a, b, s in zip(live["correction"][key], offline["correction"][key], spread)) < 0.2
+
+
+def test_a_centred_circle_gets_no_confidence(session, sensors, tmp_path):
+    calibrations, status, answer, output, _ = played(session, BLIND, tmp_path)
+    assert not calibrations[-1].observable and not calibrations[-1].within_tolerance
+    assert status.level == 1 and "not observable" in status.message
+    assert not answer.success and "not observable" in answer.message
+    written = yaml.safe_load(output.read_text())
+    assert written["trusted"] is False and "static_transform" not in written
