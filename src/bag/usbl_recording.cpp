@@ -55,19 +55,6 @@ void count(std::map<std::string, std::uint64_t>& counts, const std::string& reas
   if (number > 0) counts[reason] = number;
 }
 
-void takeCounts(const UsblIngest& ingest, UsblRecording& recording) {
-  for (int i = 0; i < usbl::kOmissions; ++i) {
-    const auto omission = static_cast<usbl::Omission>(i);
-    count(recording.left_out, usbl::omissionText(omission), ingest.builder().omitted(omission));
-  }
-  const auto& counts = ingest.counts();
-  count(recording.refused, "GNSS messages without a fix", counts.no_fix);
-  count(recording.refused, "attitude messages without an orientation", counts.no_attitude);
-  count(recording.refused, fmt::format("messages of frames without a transform to the base frame ({})", fmt::join(counts.frames, ", ")), counts.unknown_frame);
-  count(recording.refused, "measurements of another array", counts.other_array);
-  count(recording.refused, "transponders whose frame_id is no number", counts.no_id);
-}
-
 /// Why there is not a single ping, and what to do.
 std::string whyNoPing(const std::string& file, const UsblSettings& settings, const UsblRecording& recording, const UsblIngest& ingest) {
   if (recording.readings == 0 && !settings.array_frame.empty())
@@ -86,6 +73,24 @@ std::string whyNoPing(const std::string& file, const UsblSettings& settings, con
 }
 
 }  // namespace
+
+void UsblRecording::takeSummary(const UsblIngest& ingest) {
+  nominal = ingest.builder().nominal();
+  has_nominal = ingest.hasNominal();
+  array_frame = ingest.arrayFrame();
+  readings = ingest.builder().readings();
+  if (!ingest.transponders().empty()) transponder = ingest.transponders().begin()->second;
+  for (int i = 0; i < usbl::kOmissions; ++i) {
+    const auto omission = static_cast<usbl::Omission>(i);
+    count(left_out, usbl::omissionText(omission), ingest.builder().omitted(omission));
+  }
+  const auto& counts = ingest.counts();
+  count(refused, "GNSS messages without a fix", counts.no_fix);
+  count(refused, "attitude messages without an orientation", counts.no_attitude);
+  count(refused, fmt::format("messages of frames without a transform to the base frame ({})", fmt::join(counts.frames, ", ")), counts.unknown_frame);
+  count(refused, "measurements of another array", counts.other_array);
+  count(refused, "transponders whose frame_id is no number", counts.no_id);
+}
 
 UsblRecording UsblRecording::read(const std::string& file, const UsblSettings& settings, const std::function<void(double)>& progress) {
   BagReader bag(file);
@@ -119,12 +124,7 @@ UsblRecording UsblRecording::read(const std::string& file, const UsblSettings& s
     }
   }
   add(ingest.builder().finish());
-  recording.nominal = ingest.builder().nominal();
-  recording.has_nominal = ingest.hasNominal();
-  recording.array_frame = ingest.arrayFrame();
-  recording.readings = ingest.builder().readings();
-  if (!ingest.transponders().empty()) recording.transponder = ingest.transponders().begin()->second;
-  takeCounts(ingest, recording);
+  recording.takeSummary(ingest);
   if (recording.pings.empty()) throw std::runtime_error(whyNoPing(file, settings, recording, ingest));
   return recording;
 }

@@ -171,7 +171,8 @@ bool CalibrationServer::onSave(std_srvs::Trigger::Request&, std_srvs::Trigger::R
     CalibrationResult result;
     result.bag = "live";
     result.settings = settings_;
-    result.recording = UsblRecording::of(*ingest_, pings_);
+    result.recording.pings = pings_;
+    result.recording.takeSummary(*ingest_);
     result.comparison = usbl::compare(pings_, settings_.calibration, names_);
     if (!result.comparison.failure.empty()) throw std::runtime_error(result.comparison.failure);
     writeFile(output_, calibrationDocument(result));

@@ -22,9 +22,12 @@ void UsblIngest::takeTransponder(const sensor_msgs::NavSatFix& message) {
     ++counts_.no_id;
     return;
   }
-  const Geodetic position{message.latitude, message.longitude, message.altitude};
-  transponders_[*id] = position;
-  builder_.addTransponder(*id, position);
+  setTransponder(*id, {message.latitude, message.longitude, message.altitude});
+}
+
+void UsblIngest::setTransponder(std::uint32_t id, const Geodetic& position) {
+  transponders_[id] = position;
+  builder_.addTransponder(id, position);
 }
 
 void UsblIngest::take(const sensor_msgs::Imu& message) {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "calibration_result.hpp"
 #include "sas_motion/math/angles.hpp"
+#include "sas_motion/ros/calibration_result.hpp"
 
-namespace sas_motion {
+namespace sas_motion::ros_side {
 
 using namespace usbl;
 
@@ -92,4 +92,4 @@ std::string calibrationTable(const CalibrationResult& result) {
   return text + result.conclusion() + "\n";
 }
 
-}  // namespace sas_motion
+}  // namespace sas_motion::ros_side

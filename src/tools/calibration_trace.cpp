@@ -4,9 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "calibration_result.hpp"
+#include "sas_motion/ros/calibration_result.hpp"
 
-namespace sas_motion {
+namespace sas_motion::ros_side {
 
 using namespace usbl;
 using nlohmann::json;
@@ -105,4 +105,4 @@ std::string calibrationTrace(const CalibrationResult& result) {
   return tree.dump() + "\n";
 }
 
-}  // namespace sas_motion
+}  // namespace sas_motion::ros_side

@@ -26,6 +26,8 @@ struct UsblRecording {
   std::map<std::string, std::uint64_t> left_out;  ///< readings that gave no ping, by reason in plain words; only what occurred
   std::map<std::string, std::uint64_t> refused;   ///< other messages that gave nothing
 
+  /// What an ingest knows beside the pings: where the array sits nominally, the transponder, and what it left out.
+  void takeSummary(const UsblIngest& ingest);
   /// Throws std::runtime_error: one sentence that names the file and the topic where there is no ping to calibrate with.
   static UsblRecording read(const std::string& bag, const UsblSettings& settings, const std::function<void(double)>& progress);
 };

@@ -36,6 +36,8 @@ class UsblIngest {
   void take(const sensor_msgs::Imu& message);
   void take(const sas_motion::UsblMeasurement& message);
 
+  void setTransponder(std::uint32_t id, const Geodetic& position);
+
   usbl::PingBuilder& builder() { return builder_; }
   const usbl::PingBuilder& builder() const { return builder_; }
   const Counts& counts() const { return counts_; }

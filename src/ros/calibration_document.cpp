@@ -5,13 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "calibration_result.hpp"
 #include "sas_motion/math/angles.hpp"
+#include "sas_motion/ros/calibration_result.hpp"
 
-namespace sas_motion {
+namespace sas_motion::ros_side {
 
 using namespace usbl;
-using namespace ros_side;
 
 namespace {
 
@@ -150,4 +149,4 @@ std::string calibrationDocument(const CalibrationResult& result) {
   return text + fmt::format("warnings: [{}]\n", fmt::join(warnings, ", "));
 }
 
-}  // namespace sas_motion
+}  // namespace sas_motion::ros_side

@@ -8,13 +8,13 @@
 #include "sas_motion/bag/usbl_recording.hpp"
 #include "sas_motion/calibration/comparison.hpp"
 
-namespace sas_motion {
+namespace sas_motion::ros_side {
 
 /// A calibration as it is printed and written: what the bag held, and what the estimators made of it.
 struct CalibrationResult {
   std::string bag;
-  ros_side::UsblSettings settings;
-  ros_side::UsblRecording recording;
+  UsblSettings settings;
+  UsblRecording recording;
   usbl::Comparison comparison;
 
   /// What the answer should be, as a correction of the nominal mounting; nothing without truth.
@@ -38,4 +38,4 @@ std::string calibrationDocument(const CalibrationResult& result);
 /// calibration.json: every estimator over time, for the report.
 std::string calibrationTrace(const CalibrationResult& result);
 
-}  // namespace sas_motion
+}  // namespace sas_motion::ros_side
