@@ -40,11 +40,12 @@ std::vector<std::size_t> CalibrationResult::outliersByMinute() const {
 
 std::string CalibrationResult::conclusion() const {
   const auto& observability = comparison.observability;
+  if (!comparison.implausible.empty()) return "not to be trusted: " + comparison.implausible;
   if (!observability.observable) return observability.verdict;
   if (!comparison.agrees)
     return fmt::format(
-        "not to be trusted: {} and batch disagree, their squared distance is {:.0f} where 17 is the limit; it may have locked in to wrong readings",
-        comparison.best().name, comparison.distance);
+        "not to be trusted: {} and batch disagree, their squared distance is {:.0f} where {:.1f} is the limit; it may have locked in to wrong readings",
+        comparison.best().name, comparison.distance, agreementLimit());
   const bool alone = comparison.best().name == "batch";
   return fmt::format("observable: {}{}", observability.verdict, alone ? "" : fmt::format("; {} and batch agree", comparison.best().name));
 }
@@ -102,7 +103,8 @@ int main(int argc, char** argv) {
                "calibrate_usbl");
   app.footer(
       "Beside the calibration a trace of the same name with .json is written, for calibration_report.py. The exit status is 0 for a calibration that may\n"
-      "be trusted, 3 for one that says itself that it may not (the track cannot tell, or a filter and batch disagree), 1 where there is none, 2 for a wrong\n"
+      "be trusted, 3 for one that says itself that it may not (the track cannot tell, a filter and batch disagree, or most readings contradict it), 1 where "
+      "there is none, 2 for a wrong\n"
       "command line.");
   app.add_option("BAG", options.bag, "bag to read")->required();
   app.add_option("-o,--output", options.out, "calibration to write (YAML; default: calibration.yaml)");
