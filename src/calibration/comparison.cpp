@@ -14,10 +14,12 @@
 namespace sas_motion::usbl {
 namespace {
 
-constexpr double kAgree = 0.99;         // probability that two honest answers are no further apart
-constexpr double kFarFromPrior = 4;     // standard deviations
-constexpr double kNoiseMisStated = 10;  // factor on the standard deviation that is worth a word
+constexpr double kAgree = 0.99;        // probability that two honest answers are no further apart
+constexpr double kFarFromPrior = 4;    // standard deviations
+constexpr double kNoiseMisStated = 7;  // factor on the standard deviation that is worth a word
+constexpr double kNoiseAbsurd = 30;    // and one that no sensor's driver mis-states
 constexpr double kManyOutliers = 0.3;
+constexpr double kMostOutliers = 0.5;  // of a channel: with more, its readings contradict the answer
 
 /// Runs a filter over the pings; what it says of the noise before its start is what it starts with.
 Estimated runFilter(const std::string& name, const std::vector<Ping>& pings, const Config& config) {
@@ -80,6 +82,20 @@ double medianNoise(const Estimated& estimated, int channel) {
   return quantile(std::move(values), 0.5);
 }
 
+/// Axes that are swapped, wrong units and wrong clocks leave most readings of a channel contradicting any answer.
+std::string implausibility(const Comparison& comparison) {
+  const auto channels = channelNames(comparison.problem.model.mode());
+  for (int i = 0; i < kChannels; ++i) {
+    const ChannelStatistics statistics = channelStatistics(comparison, comparison.best(), i);
+    const bool contradicted = static_cast<double>(statistics.outliers) > kMostOutliers * static_cast<double>(statistics.count);
+    if (contradicted || statistics.noise > kNoiseAbsurd)
+      return fmt::format(
+          "the readings of {} contradict the answer ({} of {} are outliers, the noise is {:.2g} times the stated one): check axes, units and clocks",
+          channels[static_cast<std::size_t>(i)], statistics.outliers, statistics.count, statistics.noise);
+  }
+  return "";
+}
+
 std::vector<std::string> warningsOf(const Comparison& comparison) {
   const auto channels = channelNames(comparison.problem.model.mode());
   const Prior& prior = comparison.problem.prior;
@@ -104,6 +120,8 @@ std::vector<std::string> warningsOf(const Comparison& comparison) {
 
 }  // namespace
 
+double agreementLimit() { return chiSquaredQuantile(kAgree, kStates); }
+
 std::vector<std::string> estimatorNames() {
   std::vector<std::string> names = filterNames();
   names.emplace_back("batch");
@@ -118,9 +136,11 @@ std::array<std::string, kChannels> channelNames(Mode mode) {
 
 Comparison compare(const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const Solver& solve,
                    const std::function<void()>& progress) {
-  Comparison result{{Model(config.mode), config.prior, pings, Vector<kChannels>::Ones()}, {}, 0, {}, 0, true, {}, ""};
+  Comparison result{{Model(config.mode), config.prior, pings, Vector<kChannels>::Ones()}, {}, 0, {}, 0, true, "", {}, ""};
   for (auto& ping : result.problem.pings) ping.reading = result.problem.model.convert(ping.reading);
-  std::vector<std::string> all = names;
+  std::vector<std::string> all;
+  for (const auto& name : names)
+    if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
   if (std::find(all.begin(), all.end(), "batch") == all.end()) all.emplace_back("batch");
   for (const auto& name : all) {
     result.estimates.push_back(name == "batch" ? runBatch(result.problem, config, solve) : runFilter(name, pings, config));
@@ -135,7 +155,8 @@ Comparison compare(const std::vector<Ping>& pings, const Config& config, const s
   result.observability = observability(result.problem, result.best().x);
   for (const auto& estimated : result.estimates)
     if (estimated.name == "batch" && estimated.failure.empty()) result.distance = distanceBetween(result.best(), estimated);
-  result.agrees = result.distance < chiSquaredQuantile(kAgree, kStates);
+  result.agrees = result.distance < agreementLimit();
+  result.implausible = implausibility(result);
   result.warnings = warningsOf(result);
   return result;
 }

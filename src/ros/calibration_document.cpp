@@ -124,10 +124,10 @@ std::string calibrationDocument(const CalibrationResult& result) {
   std::string text = fmt::format(
       "# A USBL calibration. Where trusted is false, its figures are not to be used, and there is no static_transform.\n"
       "bag: {}\nmode: {}\narray: {}\n"
-      "observable: {}\nagrees_with_batch: {}   # an estimator that has locked in does not\ntrusted: {}\n"
+      "observable: {}\nagrees_with_batch: {}   # an estimator that has locked in does not\nplausible: {}   # most readings agree with it\ntrusted: {}\n"
       "conclusion: {}\nverdict: {}\nestimator: {}                # whose answer this is\n",
       quoted(result.bag), modeName(comparison.problem.model.mode()), quoted(result.arrayFrame()), comparison.observability.observable, comparison.agrees,
-      comparison.trusted(), quoted(result.conclusion()), quoted(comparison.observability.verdict), best.name);
+      comparison.implausible.empty(), comparison.trusted(), quoted(result.conclusion()), quoted(comparison.observability.verdict), best.name);
   text += mountingOf(result.mounting());
   const Unknowns sigma = best.sigma();
   text += fmt::format("sigma:                        # of both\n  angles_deg: {}   # pitch, roll, heading\n  lever_arm: {}   # starboard, forward, up [m]\n",

@@ -32,11 +32,12 @@ std::vector<std::size_t> CalibrationResult::outliersByMinute() const {
 
 std::string CalibrationResult::conclusion() const {
   const auto& observability = comparison.observability;
+  if (!comparison.implausible.empty()) return "not to be trusted: " + comparison.implausible;
   if (!observability.observable) return observability.verdict;
   if (!comparison.agrees)
     return fmt::format(
-        "not to be trusted: {} and batch disagree, their squared distance is {:.0f} where 17 is the limit; it may have locked in to wrong readings",
-        comparison.best().name, comparison.distance);
+        "not to be trusted: {} and batch disagree, their squared distance is {:.0f} where {:.1f} is the limit; it may have locked in to wrong readings",
+        comparison.best().name, comparison.distance, agreementLimit());
   const bool alone = comparison.best().name == "batch";
   return fmt::format("observable: {}{}", observability.verdict, alone ? "" : fmt::format("; {} and batch agree", comparison.best().name));
 }

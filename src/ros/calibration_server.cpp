@@ -160,8 +160,8 @@ void CalibrationServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
     const auto omission = static_cast<usbl::Omission>(i);
     if (ingest_->builder().omitted(omission) > 0) status.addf("measurements " + usbl::omissionText(omission), "%lu", ingest_->builder().omitted(omission));
   }
-  if (ingest_->counts().unknown_frame > 0)
-    status.mergeSummary(DiagnosticStatus::ERROR, fmt::format("frame {} has no transform to {}", ingest_->counts().frame, settings_.base_frame));
+  for (const auto& frame : ingest_->counts().frames)
+    status.mergeSummary(DiagnosticStatus::ERROR, fmt::format("frame {} has no transform to {}", frame, settings_.base_frame));
   for (const auto& lane : lanes_) status.addf(lane.name + " lock-ins", "%d", lane.calibrator.lockIns());
 }
 

@@ -70,6 +70,13 @@ ros::Time timeOf(Stamp stamp) {
   return time;
 }
 
+Transform transformOf(const geometry_msgs::Transform& message) {
+  Transform T = Transform::Identity();
+  T.linear() = quaternionOf(message.rotation).normalized().toRotationMatrix();
+  T.translation() << message.translation.x, message.translation.y, message.translation.z;
+  return T;
+}
+
 bool hasPosition(const sensor_msgs::NavSatFix& fix) { return fix.status.status >= 0 && std::abs(fix.latitude) <= 90 && std::abs(fix.longitude) <= 360; }
 
 Geodetic geodeticOf(const sensor_msgs::NavSatFix& fix) { return {fix.latitude, fix.longitude, std::isfinite(fix.altitude) ? fix.altitude : 0}; }

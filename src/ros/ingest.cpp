@@ -91,10 +91,7 @@ std::optional<Transform> Ingest::lookUp(const std::string& frame_id) const {
   const auto found = known_.find(frame_id);
   if (found != known_.end()) return found->second;
   try {
-    const auto& t = transforms_.lookupTransform(settings_.base_frame, frame_id, ros::Time(0)).transform;
-    Transform T_base_sensor = Transform::Identity();
-    T_base_sensor.linear() = Eigen::Quaterniond(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z).normalized().toRotationMatrix();
-    T_base_sensor.translation() << t.translation.x, t.translation.y, t.translation.z;
+    const Transform T_base_sensor = transformOf(transforms_.lookupTransform(settings_.base_frame, frame_id, ros::Time(0)).transform);
     known_.emplace(frame_id, T_base_sensor);  // sensors are fixed to the vessel
     return T_base_sensor;
   } catch (const tf2::TransformException&) {

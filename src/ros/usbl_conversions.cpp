@@ -76,13 +76,6 @@ std::optional<std::uint32_t> transponderId(const std::string& frame_id) {
   return id;
 }
 
-Transform transformOf(const geometry_msgs::Transform& message) {
-  Transform T = Transform::Identity();
-  T.linear() = quaternionOf(message.rotation).normalized().toRotationMatrix();
-  T.translation() << message.translation.x, message.translation.y, message.translation.z;
-  return T;
-}
-
 geometry_msgs::Transform messageOf(const Transform& transform) {
   geometry_msgs::Transform message;
   message.translation.x = transform.translation().x();

@@ -63,7 +63,8 @@ int main(int argc, char** argv) {
                "calibrate_usbl");
   app.footer(
       "Beside the calibration a trace of the same name with .json is written, for calibration_report.py. The exit status is 0 for a calibration that may\n"
-      "be trusted, 3 for one that says itself that it may not (the track cannot tell, or a filter and batch disagree), 1 where there is none, 2 for a wrong\n"
+      "be trusted, 3 for one that says itself that it may not (the track cannot tell, a filter and batch disagree, or most readings contradict it), 1 where "
+      "there is none, 2 for a wrong\n"
       "command line.");
   app.add_option("BAG", options.bag, "bag to read")->required();
   app.add_option("-o,--output", options.out, "calibration to write (YAML; default: calibration.yaml)");

@@ -51,7 +51,8 @@ json residualsOf(const CalibrationResult& result, const Estimated& e) {
       auto& channel = columns[channels[static_cast<std::size_t>(c)]];
       channel["residual"].push_back(has ? json(shortened(whitened(c))) : json());
       channel["noise"].push_back(shortened(e.noise[i](c)));
-      if (!result.recording.outlier.empty()) channel["outlier"].push_back(label != result.recording.outlier.end() && label->second[static_cast<std::size_t>(c)]);
+      if (!result.recording.outlier.empty())
+        channel["outlier"].push_back(label != result.recording.outlier.end() && label->second[static_cast<std::size_t>(c)]);
     }
   }
   return columns;

@@ -61,6 +61,15 @@ TEST(Comparison, AnswersThatContradictEachOtherAreNotTrusted) {
   EXPECT_FALSE(comparison.trusted());
 }
 
+TEST(Comparison, SwappedAxesAreNotTrustedEvenByBatchAlone) {
+  auto pings = pingsOf(Scenario());
+  for (auto& ping : pings) std::swap(ping.reading.value(1), ping.reading.value(2));
+  const Comparison comparison = compare(pings, {}, {"batch", "batch"});
+  EXPECT_EQ(comparison.estimates.size(), 1u);
+  EXPECT_NE(comparison.implausible.find("check axes, units and clocks"), std::string::npos);
+  EXPECT_FALSE(comparison.trusted());
+}
+
 TEST(Comparison, WarnsOfAnArrayThatIsMountedOtherwiseThanExpected) {
   Scenario scenario;
   scenario.truth(kMountingZ) = 0.6;

@@ -41,6 +41,8 @@ struct ChannelStatistics {
   double rms = 0;            ///< of the others [m, rad]
   double noise = 1;          ///< median over time of the noise's standard deviation over the stated one [-]
 };
+/// Squared distance, of six states, that two honest answers stay below with a probability of 99 %.
+double agreementLimit();
 constexpr double kOutlier = 3;  ///< a residual beyond this many standard deviations of the estimated noise is called an outlier
 
 /// All estimators of a calibration on the same pings, and whether their answer may be believed.
@@ -51,11 +53,12 @@ struct Comparison {
   Observability observability;       ///< at the answer
   double distance = 0;               ///< squared Mahalanobis distance between the answer and batch [-]
   bool agrees = true;                ///< with batch: a filter that has locked in does not
+  std::string implausible;           ///< in plain words, why the answer cannot be right although it may be observable; empty where it can
   std::vector<std::string> warnings;
   std::string failure;  ///< no estimator gave an answer
 
   const Estimated& best() const { return estimates[answer]; }
-  bool trusted() const { return failure.empty() && observability.observable && agrees; }
+  bool trusted() const { return failure.empty() && implausible.empty() && observability.observable && agrees; }
 };
 
 /// Runs filters by name, and batch, which is always run since it cannot lock in. The answer is hvbckf's where it is among them and no further

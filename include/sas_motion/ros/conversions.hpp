@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <geometry_msgs/Transform.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sas_motion/FilterUpdate.h>
@@ -25,6 +26,8 @@ using towfish::Measurement;
 
 /// A pose of a sensor in the base frame.
 using Transform = Eigen::Isometry3d;
+
+Transform transformOf(const geometry_msgs::Transform& message);
 
 inline Stamp stampOf(const ros::Time& time) { return static_cast<Stamp>(time.toNSec()); }
 ros::Time timeOf(Stamp stamp);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <geometry_msgs/Transform.h>
 #include <sas_motion/UsblMeasurement.h>
 #include <sensor_msgs/Imu.h>
 
@@ -34,7 +33,6 @@ inline Vector<3> bodyVectorOf(const Vector<3>& ros_body) { return bodyFromRosBod
 /// The id that a transponder's frame_id holds; nothing where it is no number.
 std::optional<std::uint32_t> transponderId(const std::string& frame_id);
 
-Transform transformOf(const geometry_msgs::Transform& message);
 geometry_msgs::Transform messageOf(const Transform& transform);
 
 }  // namespace sas_motion::ros_side
