@@ -44,14 +44,14 @@ Estimated runFilter(const std::string& name, const std::vector<Ping>& pings, con
   return result;
 }
 
-Estimated runBatch(const Problem& problem, const Config& config, const Solver& solve) {
-  const Fit found = fit(problem, config.fit, solve);
+Estimated runFitter(const std::string& name, const Fitter& fitter, const Problem& problem, const Config& config) {
+  const Fit found = fitter(problem, config.fit);
   Estimated result;
-  result.name = "batch";
+  result.name = name;
   result.x = found.x;
   result.covariance = found.covariance;
   result.noise.assign(problem.pings.size(), found.scale);
-  if (!found.failure.empty()) result.failure = "batch: " + found.failure;
+  if (!found.failure.empty()) result.failure = name + ": " + found.failure;
   return result;
 }
 
@@ -124,7 +124,7 @@ double agreementLimit() { return chiSquaredQuantile(kAgree, kStates); }
 
 std::vector<std::string> estimatorNames() {
   std::vector<std::string> names = filterNames();
-  names.emplace_back("batch");
+  names.insert(names.end(), {"batch", "gnc"});
   return names;
 }
 
@@ -134,7 +134,7 @@ std::array<std::string, kChannels> channelNames(Mode mode) {
                 : std::array<std::string, kChannels>{"range", "to_starboard", "to_forward"};
 }
 
-Comparison compare(const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const Solver& solve,
+Comparison compare(const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const FitterFactory& fitters,
                    const std::function<void()>& progress) {
   Comparison result{{Model(config.mode), config.prior, pings, Vector<kChannels>::Ones()}, {}, 0, {}, 0, true, "", {}, ""};
   for (auto& ping : result.problem.pings) ping.reading = result.problem.model.convert(ping.reading);
@@ -143,7 +143,8 @@ Comparison compare(const std::vector<Ping>& pings, const Config& config, const s
     if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
   if (std::find(all.begin(), all.end(), "batch") == all.end()) all.emplace_back("batch");
   for (const auto& name : all) {
-    result.estimates.push_back(name == "batch" ? runBatch(result.problem, config, solve) : runFilter(name, pings, config));
+    const Fitter fitter = fitters(name);
+    result.estimates.push_back(fitter ? runFitter(name, fitter, result.problem, config) : runFilter(name, pings, config));
     progress();
   }
   result.answer = answerOf(result.estimates, config);

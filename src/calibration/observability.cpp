@@ -16,10 +16,8 @@ constexpr double kWellKnown = 0.2;  // of the prior's standard deviation: what i
 constexpr double kNoticeable = 0.3;  // a component of the weak direction that is worth naming
 
 const char* plainName(int unknown) {
-  static const std::array<const char*, kUnknowns> names{"pitch mounting angle",         "roll mounting angle",           "heading mounting angle",
-                                                        "athwartships lever arm",       "fore-and-aft lever arm",        "vertical lever arm",
-                                                        "transponder's east position",  "transponder's north position",  "transponder's depth",
-                                                        "sound speed"};
+  static const std::array<const char*, kStates> names{"pitch mounting angle",   "roll mounting angle",    "heading mounting angle",
+                                                      "athwartships lever arm", "fore-and-aft lever arm", "vertical lever arm"};
   return names[static_cast<std::size_t>(unknown)];
 }
 
@@ -50,22 +48,30 @@ std::string verdictOf(const Observability& result) {
                      result.pings, several ? "separate" : "tell", what, several ? "them" : "it");
 }
 
+/// What the pings tell of mounting and lever arm, in units of their prior's standard deviations. The prior of the other unknowns is no guess
+/// but a survey's or a probe's: it counts, and they are eliminated.
+Matrix<kStates> knownOfMounting(const Matrix<kUnknowns>& data, const Prior& prior) {
+  constexpr int kOthers = kUnknowns - kStates;
+  const Matrix<kUnknowns> scaled = prior.sigma.asDiagonal() * data * prior.sigma.asDiagonal();
+  const Matrix<kOthers> others = scaled.bottomRightCorner<kOthers, kOthers>() + Matrix<kOthers>::Identity();
+  const Matrix<kStates, kOthers> shared = scaled.topRightCorner<kStates, kOthers>();
+  return scaled.topLeftCorner<kStates, kStates>() - shared * others.llt().solve(shared.transpose());
+}
+
 }  // namespace
 
 Observability observability(const Matrix<kUnknowns>& data, const Prior& prior, std::size_t pings) {
   Observability result;
   result.pings = pings;
-  for (int i = 0; i < kUnknowns; ++i)
+  for (int i = 0; i < kStates; ++i)
     if (prior.estimated[static_cast<std::size_t>(i)]) result.unknowns.push_back(i);
   const auto n = static_cast<Eigen::Index>(result.unknowns.size());
   result.bound = covarianceFrom(data, prior).diagonal().cwiseSqrt();
   if (n == 0) return result;
+  const Matrix<kStates> known = knownOfMounting(data, prior);
   Eigen::MatrixXd scaled(n, n);
   for (Eigen::Index row = 0; row < n; ++row)
-    for (Eigen::Index col = 0; col < n; ++col) {
-      const int a = result.unknowns[static_cast<std::size_t>(row)], b = result.unknowns[static_cast<std::size_t>(col)];
-      scaled(row, col) = prior.sigma(a) * data(a, b) * prior.sigma(b);
-    }
+    for (Eigen::Index col = 0; col < n; ++col) scaled(row, col) = known(result.unknowns[static_cast<std::size_t>(row)], result.unknowns[static_cast<std::size_t>(col)]);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   for (Eigen::Index i = n - 1; i >= 0; --i) result.singular_values.push_back(std::max(0.0, eigen.eigenvalues()(i)));
   const Eigen::VectorXd weak = eigen.eigenvectors().col(0).cwiseProduct(scaled.diagonal().cwiseMax(1e-12).cwiseSqrt()).normalized();

@@ -10,6 +10,7 @@
 
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/ros/calibration_result.hpp"
+#include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -173,7 +174,7 @@ bool CalibrationServer::onSave(std_srvs::Trigger::Request&, std_srvs::Trigger::R
     result.settings = settings_;
     result.recording.pings = pings_;
     result.recording.takeSummary(*ingest_);
-    result.comparison = usbl::compare(pings_, settings_.calibration, names_);
+    result.comparison = usbl::compare(pings_, settings_.calibration, names_, usbl::makeFitter);
     if (!result.comparison.failure.empty()) throw std::runtime_error(result.comparison.failure);
     writeFile(output_, calibrationDocument(result));
     response.success = result.comparison.trusted() ? 1 : 0;

@@ -11,6 +11,7 @@
 #include "sas_motion/bag/bag_reader.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/ros/calibration_result.hpp"
+#include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
 
 namespace {
 
@@ -39,7 +40,7 @@ CalibrationResult calibrate(const Options& options) {
   }
   Progress progress("calibrate", static_cast<double>(options.estimators.size()), 0);
   result.comparison =
-      usbl::compare(result.recording.pings, result.settings.calibration, options.estimators, usbl::solveIteratively, [&] { progress.advance(1); });
+      usbl::compare(result.recording.pings, result.settings.calibration, options.estimators, usbl::makeFitter, [&] { progress.advance(1); });
   if (!result.comparison.failure.empty()) throw std::runtime_error(fmt::format("{}: {}", options.bag, result.comparison.failure));
   return result;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sas_motion/calibration/calibrator.hpp"
+#include "sas_motion/calibration/fitter.hpp"
 #include "sas_motion/calibration/observability.hpp"
 
 namespace sas_motion::usbl {
@@ -62,9 +63,9 @@ struct Comparison {
 };
 
 /// Runs filters by name, and batch, which is always run since it cannot lock in. The answer is hvbckf's where it is among them and no further
-/// unknowns are estimated, else batch's. Names must be of filterNames() or batch.
+/// unknowns are estimated, else batch's. Names that `fitters` does not know must be of filterNames().
 Comparison compare(
-    const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const Solver& solve = solveIteratively,
+    const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const FitterFactory& fitters = nativeFitter,
     const std::function<void()>& progress = [] {});
 
 /// Residuals of a ping over the noise that an estimator saw there; 0 where a channel is absent.
@@ -73,7 +74,7 @@ ChannelStatistics channelStatistics(const Comparison& comparison, const Estimate
 
 /// What a mode's channels are called: range, to_starboard, ...
 std::array<std::string, kChannels> channelNames(Mode mode);
-/// filterNames() and batch.
+/// filterNames(), batch and gnc.
 std::vector<std::string> estimatorNames();
 
 }  // namespace sas_motion::usbl

@@ -15,4 +15,10 @@ using Fitter = std::function<Fit(const Problem& problem, const FitOptions& optio
 /// The fitter of a name; empty for an unknown one.
 using FitterFactory = std::function<Fitter(const std::string& name)>;
 
+/// batch without a factor graph: the native fit; empty for another name.
+inline Fitter nativeFitter(const std::string& name) {
+  if (name != "batch") return {};
+  return [](const Problem& problem, const FitOptions& options) { return fit(problem, options); };
+}
+
 }  // namespace sas_motion::usbl
