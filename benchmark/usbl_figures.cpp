@@ -94,8 +94,8 @@ void centredCircle(std::uint64_t seeds) {
 
 int main(int argc, char** argv) {
   const auto seeds = static_cast<std::uint64_t>(argc > 1 ? std::max(1, std::atoi(argv[1])) : 100);
-  fmt::print("Estimated over true variance of good noise, median of {} seeds, after {} s\n{:<24}{:<18}{:>9}{:>10}{:>10}{:>16}\n", seeds, kSettled, "law", "filter",
-             "channel", "least", "most", "within 20 % [%]");
+  fmt::print("Estimated over true variance of good noise, median of {} seeds, after {} s\n{:<24}{:<18}{:>9}{:>10}{:>10}{:>16}\n", seeds, kSettled, "law",
+             "filter", "channel", "least", "most", "within 20 % [%]");
   const std::vector<NoiseLaw> both{varying(), kOutliers};
   for (const char* filter : {"vbckf", "hvbckf"}) {
     follow("sigma 1 to 5", filter, varying(), seeds);

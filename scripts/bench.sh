@@ -41,7 +41,7 @@ venv="$root/.venv"
 echo; echo "bench: USBL calibration: an update of each filter, and the batch"
 "$tools/usbl_speed" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 echo; echo "bench: USBL calibration: how the noise is followed, and a circle that tells too little"
-"$tools/usbl_figures" $((smoke == 1 ? 3 : 100))
+"$tools/usbl_figures" $((smoke == 1 ? 3 : 300))
 
 echo; echo "bench: rts beside batch"
 "$tools/smoother_speed" "$nodes"

@@ -75,7 +75,8 @@ class Score {
 
 class UsblSystem final : public System {
  public:
-  UsblSystem(YamlSection& section, const std::string& folder, FitterFactory fitters) : campaign_(Campaign::read(section, folder)), fitters_(std::move(fitters)) {
+  UsblSystem(YamlSection& section, const std::string& folder, FitterFactory fitters)
+      : campaign_(Campaign::read(section, folder)), fitters_(std::move(fitters)) {
     dimension = kStates;
     duration = campaign_.scenario.duration;
     skip = campaign_.skip;

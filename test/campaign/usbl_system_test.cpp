@@ -15,8 +15,9 @@ const char* const kContaminated = "noise: {law: contaminated, epsilon: 0.1, K: 1
 
 /// Figure-eights of 500 s.
 std::string usblSuite(int runs, const std::string& estimators, const std::string& laws, const std::string& more = "") {
-  return "{runs: " + std::to_string(runs) + ", campaigns: [{name: c, system: usbl, scenario: {duration: 500, track: {kind: figure_eight, radius: 56}}, estimators: " +
-         estimators + ", laws: " + laws + more + "}]}";
+  return "{runs: " + std::to_string(runs) +
+         ", campaigns: [{name: c, system: usbl, scenario: {duration: 500, track: {kind: figure_eight, radius: 56}}, estimators: " + estimators +
+         ", laws: " + laws + more + "}]}";
 }
 
 std::map<std::string, double> boundOf(const Suite& suite, std::size_t law) {
@@ -39,7 +40,9 @@ TEST(UsblSystem, ScoresTheLastHundredSecondsByUnknownTheMountingFirst) {
 
 TEST(UsblSystem, OutliersHurtCkfMoreThanHvbckfWhateverTheMessagesState) {
   const std::string noise(kContaminated);
-  const auto suite = suiteOf(usblSuite(12, "[ckf, oracle_ckf, hvbckf]", "[{name: right, " + noise + "}, {name: large, stated_factor: 25, " + noise + "}, {name: small, stated_factor: 0.04, " + noise + "}]"));
+  const auto suite =
+      suiteOf(usblSuite(12, "[ckf, oracle_ckf, hvbckf]",
+                        "[{name: right, " + noise + "}, {name: large, stated_factor: 25, " + noise + "}, {name: small, stated_factor: 0.04, " + noise + "}]"));
   const auto runs = runAll(suite);
   for (const char* law : {"right", "large", "small"}) {
     EXPECT_LT(rmse(suite, runs, law, "hvbckf"), 0.6 * rmse(suite, runs, law, "ckf")) << law;

@@ -14,6 +14,7 @@ from sas_motion_campaign.bootstrap import Resampler, interval  # noqa: E402
 from sas_motion_campaign.page.data import chi_square_95  # noqa: E402
 from sas_motion_campaign.plan import Plan, contiguous_chunks  # noqa: E402
 from sas_motion_campaign.summary import summarise  # noqa: E402
+from sas_motion_campaign.table import terminal_table  # noqa: E402
 
 ALL = np.ones(100, dtype=bool)
 
@@ -35,6 +36,23 @@ def records(the_plan, rmse, **more):
 def law(summary, name='heavy'):
     """The estimators of one law."""
     return summary['campaigns']['c']['laws'][name]['estimators']
+
+
+def test_a_calibration_is_compared_by_its_mounting_angles_and_with_ckf():
+    # GIVEN a campaign with errors by unknown, as a calibration's
+    the_plan = plan(estimators=('ckf', 'hvbckf', 'oracle_ckf'))
+    wrong = {'ckf': 3.0, 'hvbckf': 1.2, 'oracle_ckf': 1.0}
+    more = {'lever': {'rmse': 0.1, 'p95': 0.1, 'max': 0.1}, 'lever_x': {'rmse': 0.1, 'p95': 0.1, 'max': 0.1}}
+    runs = records(the_plan, lambda _, name, run: wrong[name], **more)
+    for run in runs.values():
+        for result in run['results'].values():
+            result['mounting'] = result.pop('position')
+    summary = summarise(the_plan, runs, {})
+    # THEN the mounting comes first, and ratios are to ckf and its oracle
+    assert summary['campaigns']['c']['groups'] == ['mounting', 'lever', 'lever_x']
+    found = law(summary)['hvbckf']['ratios']
+    assert (found['ckf']['value'], found['oracle_ckf']['value'], found['best']['value']) == pytest.approx((0.4, 1.2, 1.0))
+    assert 'RMSE [rad]' in terminal_table(summary, {})
 
 
 def test_the_interval_of_a_mean_is_that_of_the_normal_law():

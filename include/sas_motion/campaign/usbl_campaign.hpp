@@ -36,17 +36,17 @@ struct Campaign {
 
 /// What an estimator believes after a ping.
 struct Estimate {
-  double time = 0;                                     ///< since the start [s]
+  double time = 0;  ///< since the start [s]
   Gaussian<kStates> belief;
   Vector<kChannels> noise = Vector<kChannels>::Ones();  ///< variance of each channel over the stated one
 };
 
 /// What an estimator made of a run.
 struct Output {
-  std::vector<Estimate> estimates;          ///< after every ping; of a fit one, at the end; none where it failed
-  std::vector<Vector<kChannels>> weights;   ///< of every ping, NaN where it got none
-  std::vector<double> nis;                  ///< likewise
-  double seconds = 0;                       ///< of CPU time
+  std::vector<Estimate> estimates;         ///< after every ping; of a fit one, at the end; none where it failed
+  std::vector<Vector<kChannels>> weights;  ///< of every ping, NaN where it got none
+  std::vector<double> nis;                 ///< likewise
+  double seconds = 0;                      ///< of CPU time
 };
 
 /// Lets an estimator work on the pings of a run.

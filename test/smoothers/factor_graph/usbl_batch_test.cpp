@@ -18,7 +18,8 @@ const FitOptions kExact{Loss(LossKind::Huber), false, 500, 1e-15};
 double apart(const Fit& a, const Fit& b, const Prior& prior) {
   double largest = 0;
   for (int i = 0; i < kUnknowns; ++i)
-    largest = std::max(largest, prior.estimated[static_cast<std::size_t>(i)] ? std::abs(a.x(i) - b.x(i)) / std::sqrt(b.covariance(i, i)) : 1e9 * std::abs(a.x(i) - b.x(i)));
+    largest = std::max(
+        largest, prior.estimated[static_cast<std::size_t>(i)] ? std::abs(a.x(i) - b.x(i)) / std::sqrt(b.covariance(i, i)) : 1e9 * std::abs(a.x(i) - b.x(i)));
   return largest;
 }
 
@@ -86,7 +87,8 @@ TEST(UsblBatch, ARedescendingLossFindsTheTruthBesideTheScale) {
   ASSERT_EQ(graph.failure, "");
   EXPECT_LT(apart(graph, native, problem.prior), 1e-3);
   const Unknowns truth = Scenario::defaultTruth();
-  for (int i = 0; i < kStates; ++i) EXPECT_LT(std::abs(graph.x(i) - truth(i)), 4 * std::sqrt(graph.covariance(i, i))) << unknownNames()[static_cast<std::size_t>(i)];
+  for (int i = 0; i < kStates; ++i)
+    EXPECT_LT(std::abs(graph.x(i) - truth(i)), 4 * std::sqrt(graph.covariance(i, i))) << unknownNames()[static_cast<std::size_t>(i)];
 }
 
 TEST(UsblGnc, FindsTheOutliersAndKeepsTheRest) {
@@ -109,7 +111,8 @@ TEST(UsblGnc, FindsTheOutliersAndKeepsTheRest) {
   EXPECT_GT(large, 80);
   EXPECT_EQ(caught, large);
   EXPECT_GT(kept, 0.97 * good);
-  for (int i = 0; i < kStates; ++i) EXPECT_LT(std::abs(result.x(i) - truth(i)), 4 * std::sqrt(result.covariance(i, i))) << unknownNames()[static_cast<std::size_t>(i)];
+  for (int i = 0; i < kStates; ++i)
+    EXPECT_LT(std::abs(result.x(i) - truth(i)), 4 * std::sqrt(result.covariance(i, i))) << unknownNames()[static_cast<std::size_t>(i)];
 }
 
 TEST(UsblBatch, WithoutPingsThePriorIsAllThatIsKnown) {
@@ -132,7 +135,8 @@ TEST(UsblBatch, ACentredCircleIsSolvedWithTheDoubtThatItLeaves) {
     EXPECT_EQ(fit.failure, "") << name;
     EXPECT_GT(std::sqrt(fit.covariance(kLeverY, kLeverY)), 0.3) << name << ": the fore-and-aft arm hides behind the pitch angle";
     const Unknowns truth = Scenario::defaultTruth();
-    for (int i = 0; i < kStates; ++i) EXPECT_LT(std::abs(fit.x(i) - truth(i)), 4 * std::sqrt(fit.covariance(i, i))) << name << unknownNames()[static_cast<std::size_t>(i)];
+    for (int i = 0; i < kStates; ++i)
+      EXPECT_LT(std::abs(fit.x(i) - truth(i)), 4 * std::sqrt(fit.covariance(i, i))) << name << unknownNames()[static_cast<std::size_t>(i)];
   }
 }
 

@@ -79,8 +79,9 @@ TEST(UsblFactors, TheMountingPriorsJacobianMatchesGtsamsNumericalOne) {
     const gtsam::Rot3 R(mountingRotation(x.head<3>()));
     gtsam::Matrix H;
     const gtsam::Vector error = factor.evaluateError(R, H);
-    EXPECT_LT((H - gtsam::numericalDerivative11<gtsam::Vector, gtsam::Rot3>([&](const gtsam::Rot3& at) { return factor.evaluateError(at, boost::none); }, R)).norm(),
-              1e-6);
+    EXPECT_LT(
+        (H - gtsam::numericalDerivative11<gtsam::Vector, gtsam::Rot3>([&](const gtsam::Rot3& at) { return factor.evaluateError(at, boost::none); }, R)).norm(),
+        1e-6);
     EXPECT_LT(std::abs(error(kMountingZ)), 1);
     EXPECT_NEAR(error(kMountingX), x(kMountingX) - prior.mean(kMountingX), 1e-12);
   }
