@@ -73,7 +73,7 @@ void CalibrationServer::beginAnew() {
   for (const auto& [id, position] : surveyed) ingest_->setTransponder(id, position);  // latched: it is told once
   if (lanes_.empty())
     for (const auto& name : names_)
-      lanes_.push_back({name, usbl::Calibrator(name, settings_.calibration), node_.advertise<UsblCalibration>(name + "/calibration", 10, true),
+      lanes_.push_back({name, usbl::Calibrator(name, settings_.calibration), node_.advertise<UsblCalibration>(name + "/calibration", kQueue, true),
                         node_.advertise<FilterUpdate>(name + "/update", kQueue)});
   for (auto& lane : lanes_) lane.calibrator = usbl::Calibrator(lane.name, settings_.calibration);
   pings_.clear();

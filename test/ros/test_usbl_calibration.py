@@ -13,8 +13,8 @@ from ros_session import wait_until
 from sas_motion.msg import UsblCalibration
 from std_srvs.srv import Trigger
 
-RATE = 60
-SECONDS = 400
+RATE = 25
+SECONDS = 300
 BLIND = toolbox.SCENARIOS / "usbl_centred_circle.yaml"
 SEEING = toolbox.SCENARIOS / "usbl_outliers.yaml"
 
@@ -65,7 +65,7 @@ def seeing(session, sensors, tmp_path_factory):
 def test_it_waits_for_its_first_minute_and_then_converges(seeing):
     calibrations = seeing[0]
     assert not calibrations[0].started and not calibrations[0].within_tolerance
-    assert len(calibrations) > 0.9 * SECONDS
+    assert len(calibrations) > 0.9 * SECONDS, seeing[1].values
     end = calibrations[-1]
     assert end.started and end.observable and end.within_tolerance, end.verdict
     sigma = [math.sqrt(end.covariance[7 * i]) for i in range(6)]
