@@ -83,7 +83,7 @@ class BankKalmanFilter {
     double sticky = 0.4;                                              ///< probability that an outlier follows an outlier
     double repeat = 0.4;                                              ///< and is wrong by as much
     double burst = 11;                                                ///< that long at most [epochs]
-    double patience = 2.5;                                            ///< with agreeing readings of a row whose sisters share no doubt [epochs]
+    double patience = 1.5;                                            ///< with agreeing readings of a row whose sisters share no doubt [epochs]
   };
 
   /// Throws std::invalid_argument where an option is out of its range.
