@@ -73,7 +73,7 @@ def read_pictures(folder):
     pictures = []
     for name in summary['order']:
         measures = summary['trajectories'][name]
-        title = 'error-free' if name == 'truth' else f'{name}, {measures["aperture_error"]["line_of_sight_wavelengths"]:.3f} λ'
+        title = 'error-free' if name == 'truth' else f'{name}, {measures["aperture_error"]["path_wavelengths"]:.3f} λ'
         pictures.append(Picture(folder, name, measures, title))
         if 'autofocused' in measures:
             pictures.append(Picture(folder, name + ', autofocused', measures['autofocused'], 'autofocused'))
@@ -118,7 +118,7 @@ def draw_comparison(summary, pictures, floor, output):
     draw_images(upper, upper.add_gridspec(rows, min(COLUMNS, len(pictures))), pictures, reference, floor)
     draw_cuts(lower.subplots(1, 2), pictures, reference, floor)
     window = summary['window']
-    figure.suptitle('{}: aperture of {:.1f} m from {:.1f} s, λ = {:.4g} m; RMS error in the line of sight'.format(
+    figure.suptitle('{}: aperture of {:.1f} m from {:.1f} s, λ = {:.4g} m; RMS error of the paths'.format(
         os.path.basename(summary['bag']), window['length'], window['start'], summary['wavelength']), fontsize='medium')
     temporary = f'{output}.{os.getpid()}.part'
     figure.savefig(temporary, format='png', dpi=110)

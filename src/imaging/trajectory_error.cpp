@@ -15,6 +15,19 @@ Eigen::Vector3d wayTo(const std::vector<PingPose>& poses, const Eigen::Vector3d&
   return target - middle;
 }
 
+/// Over all receivers of all pings.
+Trend pathError(const SonarDescription& sonar, const std::vector<double>& times, const std::vector<PingPose>& truth, const std::vector<PingPose>& estimate,
+                const Eigen::Vector3d& target) {
+  const auto true_paths = echoPaths(sonar, truth), paths = echoPaths(sonar, estimate);
+  const std::size_t receivers = paths.size() / times.size();
+  std::vector<double> line_times, errors;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    line_times.push_back(times[i / receivers]);
+    errors.push_back((pathLength(paths[i], target, sonar.sound_speed) - pathLength(true_paths[i], target, sonar.sound_speed)) / 2);
+  }
+  return fitTrend(line_times, errors);
+}
+
 }  // namespace
 
 Trend fitTrend(const std::vector<double>& times, const std::vector<double>& values) {
@@ -34,8 +47,8 @@ Trend fitTrend(const std::vector<double>& times, const std::vector<double>& valu
   return trend;
 }
 
-ApertureTrajectoryError apertureTrajectoryError(const std::vector<double>& times, const std::vector<PingPose>& truth, const std::vector<PingPose>& estimate,
-                                                const Eigen::Vector3d& target) {
+ApertureTrajectoryError apertureTrajectoryError(const SonarDescription& sonar, const std::vector<double>& times, const std::vector<PingPose>& truth,
+                                                const std::vector<PingPose>& estimate, const Eigen::Vector3d& target) {
   const Eigen::Vector3d line_of_sight = wayTo(truth, target).normalized();
   std::vector<double> along, slant;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -43,7 +56,7 @@ ApertureTrajectoryError apertureTrajectoryError(const std::vector<double>& times
     along.push_back(error.x());
     slant.push_back(-error.dot(line_of_sight));
   }
-  return {fitTrend(times, along), fitTrend(times, slant)};
+  return {fitTrend(times, along), fitTrend(times, slant), pathError(sonar, times, truth, estimate, target)};
 }
 
 Eigen::Vector3d imageShift(const ApertureTrajectoryError& error, const std::vector<PingPose>& truth, double speed, const Eigen::Vector3d& target) {

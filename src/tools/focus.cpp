@@ -71,7 +71,8 @@ class Bench {
   /// `which` is the trajectory's place; truth is the first, and its image's peaks are the reference of the others.
   FocusedTrajectory focus(const RecordedTrajectory& trajectory, std::size_t which) {
     const auto& truth = pings_.poses.front();
-    FocusedTrajectory result{trajectory.name, trajectory.topic, apertureTrajectoryError(pings_.times, truth, pings_.poses[which], places_.front()), {}, {}, {}};
+    FocusedTrajectory result{
+        trajectory.name, trajectory.topic, apertureTrajectoryError(settings_.sonar, pings_.times, truth, pings_.poses[which], places_.front()), {}, {}, {}};
     result.shift = imageShift(result.error, truth, pings_.window.speed, places_.front());
     lines_.paths = echoPaths(settings_.sonar, pings_.poses[which]);
     BackprojectionOptions backprojection;
@@ -94,7 +95,7 @@ class Bench {
     chip.half_size = kHalfChip;
     chip.search_radius = searchRadius(settings_, grid_, kHalfChip);
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      const auto error = apertureTrajectoryError(pings_.times, pings_.poses.front(), pings_.poses[which], places_[i]);
+      const auto error = apertureTrajectoryError(settings_.sonar, pings_.times, pings_.poses.front(), pings_.poses[which], places_[i]);
       auto target = measurePointTarget(image, places_[i] + imageShift(error, pings_.poses.front(), pings_.window.speed, places_[i]), chip);
       if (i == reference_powers_.size()) reference_powers_.push_back(std::max(target.range.peak_power, target.along.peak_power));
       target.peak_loss += 10 * std::log10(reference_powers_[i]);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "focus_result.hpp"
@@ -37,10 +38,10 @@ json toJson(const FocusedTrajectory& trajectory, double wavelength) {
   json entry = toJson(trajectory.image);
   const auto& error = trajectory.error;
   entry["topic"] = trajectory.topic;
-  entry["aperture_error"] = {{"line_of_sight", error.line_of_sight.rms},
-                             {"along", error.along.rms},
-                             {"line_of_sight_wavelengths", error.line_of_sight.rms / wavelength},
-                             {"along_wavelengths", error.along.rms / wavelength}};
+  for (const auto& [name, trend] : {std::pair("line_of_sight", error.line_of_sight), std::pair("along", error.along), std::pair("path", error.path)}) {
+    entry["aperture_error"][name] = trend.rms;
+    entry["aperture_error"][std::string(name) + "_wavelengths"] = trend.rms / wavelength;
+  }
   entry["image_shift"] = toJson(trajectory.shift);
   if (trajectory.autofocused) entry["autofocused"] = toJson(*trajectory.autofocused);
   return entry;
@@ -58,12 +59,22 @@ json windowJson(const FocusWindow& window) {
 }
 
 std::string tableRow(const std::string& name, const ApertureTrajectoryError& error, double wavelength, const PointTargetMeasures& target, double entropy) {
-  std::string row = fmt::format("{:<24}{:>9.4f}{:>8.3f}{:>9.4f}", name, error.line_of_sight.rms, error.line_of_sight.rms / wavelength, error.along.rms);
+  std::string row =
+      fmt::format("{:<24}{:>9.4f}{:>9.4f}{:>9.4f}{:>8.3f}", name, error.line_of_sight.rms, error.along.rms, error.path.rms, error.path.rms / wavelength);
   if (!target.complete) return row + "   no peak whose side lobes lie inside the image\n";
   const auto cut = [](const CutMeasures& c) {
     return fmt::format("{:>8.3f}{:>7.1f}{:>7.1f}{:>7.2f}{}", c.irw, c.pslr, c.islr, c.extent, c.complete ? ' ' : '*');
   };
   return row + fmt::format("{}{}{:>7.1f}{:>8.2f}{:>8.2f}\n", cut(target.along), cut(target.range), target.peak_loss, target.peak_error, entropy);
+}
+
+/// Aperture errors are RMS without mean and trend.
+std::string tableHead() {
+  const std::string cut = fmt::format("{:>8}{:>7}{:>7}{:>7} ", "IRW", "PSLR", "ISLR", "extent"),
+                    unit = fmt::format("{:>8}{:>7}{:>7}{:>7} ", "m", "dB", "dB", "m");
+  return fmt::format("{:<24}{:-^35}{:-^30}{:-^30}{:-^15}\n", "", " aperture error ", " cut along track ", " cut in range ", " peak ") +
+         fmt::format("{:<24}{:>9}{:>9}{:>9}{:>8}{}{}{:>7}{:>8}{:>8}\n", "trajectory", "sight", "along", "path", "path", cut, cut, "loss", "error", "entropy") +
+         fmt::format("{:<24}{:>9}{:>9}{:>9}{:>8}{}{}{:>7}{:>8}{:>8}\n", "", "m", "m", "m", "lambda", unit, unit, "dB", "m", "nat");
 }
 
 }  // namespace
@@ -86,11 +97,7 @@ std::string focusTable(const FocusResult& result) {
   std::string text = fmt::format("{}: {:.2f} s from {:.2f} s at {:.2f} m/s: {:.1f} m of aperture, {} pings, wavelength {:.4g} m\n", result.bag, window.duration,
                                  window.start, window.speed, window.speed * window.duration, window.pings, wavelength);
   for (std::size_t i = 0; i < result.settings.targets.size(); ++i) {
-    text += fmt::format("\ntarget at {} m; aperture error without mean and trend, cuts, loss and error of the peak\n", result.settings.targets[i].range);
-    text += fmt::format("{:<24}{:>9}{:>8}{:>9}{:>8}{:>7}{:>7}{:>7} {:>8}{:>7}{:>7}{:>7} {:>7}{:>8}{:>8}\n", "", "line of", "sight", "along", "along", "", "",
-                        "", "range", "", "", "", "", "", "");
-    text += fmt::format("{:<24}{:>9}{:>8}{:>9}{:>8}{:>7}{:>7}{:>7} {:>8}{:>7}{:>7}{:>7} {:>7}{:>8}{:>8}\n", "trajectory", "m", "lambda", "m", "IRW", "PSLR",
-                        "ISLR", "extent", "IRW", "PSLR", "ISLR", "extent", "loss", "error", "entropy");
+    text += fmt::format("\ntarget at {} m\n{}", result.settings.targets[i].range, tableHead());
     for (const auto& t : result.trajectories) {
       text += tableRow(t.name, t.error, wavelength, t.image.targets[i], t.image.entropy);
       if (t.autofocused) text += tableRow("  autofocused", t.error, wavelength, t.autofocused->targets[i], t.autofocused->entropy);
