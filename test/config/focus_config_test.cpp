@@ -42,6 +42,7 @@ TEST(FocusConfig, TheFileWithTheDefaultsIsTheDefaults) {
   EXPECT_EQ(settings.targets[0].range, defaults.targets[0].range);
   EXPECT_EQ(settings.starboard, defaults.starboard);
   EXPECT_EQ(settings.speckle.density, defaults.speckle.density);
+  EXPECT_EQ(settings.speckle.level, defaults.speckle.level);
   EXPECT_EQ(settings.speckle.block, defaults.speckle.block);
   EXPECT_EQ(settings.image.margin, defaults.image.margin);
   EXPECT_EQ(settings.memory_limit, defaults.memory_limit);
@@ -92,6 +93,7 @@ TEST(FocusScene, ABlockHidesWhatIsBehindItAndNotTheTarget) {
   FocusSettings settings;
   settings.speckle.density = 50;
   settings.speckle.block = true;
+  settings.speckle.level = -20;
   const ImageGrid grid = focusGrid(settings, 4.5, 64);
   const Scene scene = focusScene(settings, grid);
   ASSERT_EQ(scene.blocks.size(), 1u);

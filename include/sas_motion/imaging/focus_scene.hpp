@@ -29,7 +29,7 @@ struct TargetSettings {
 /// Speckle, and an upright block that throws a shadow.
 struct SpeckleSettings {
   double density = 0;                       ///< scatterers a square metre; 0: no speckle
-  double level = -20;                       ///< power of a square metre of bottom over a target's [dB]
+  double level = 5;                         ///< power of a square metre of bottom over a target's [dB]
   bool block = false;                       ///< whether there is one
   double block_along = 0;                   ///< of its middle from the first target's [m]
   double block_range = 1;                   ///< of its middle, outwards from the first target [m]
