@@ -15,15 +15,24 @@ Eigen::Vector3d wayTo(const std::vector<PingPose>& poses, const Eigen::Vector3d&
   return target - middle;
 }
 
+double trackSpeed(const std::vector<double>& times, const std::vector<PingPose>& poses) {
+  return (poses.back().position - poses.front().position).head<2>().norm() / (times.back() - times.front());
+}
+
+Eigen::Vector3d imageShift(const Trend& along, const Trend& line_of_sight, double speed, const Eigen::Vector3d& way) {
+  const double range = way.norm(), ground = way.head<2>().norm();
+  const double outwards = -line_of_sight.mean * range / ground;
+  return {along.mean + line_of_sight.slope * range / speed, std::copysign(1.0, way.y()) * outwards, 0};
+}
+
 /// Over all receivers of all pings.
-Trend pathError(const SonarDescription& sonar, const std::vector<double>& times, const std::vector<PingPose>& truth, const std::vector<PingPose>& estimate,
-                const Eigen::Vector3d& target) {
-  const auto true_paths = echoPaths(sonar, truth), paths = echoPaths(sonar, estimate);
-  const std::size_t receivers = paths.size() / times.size();
+Trend pathError(const std::vector<double>& times, const std::vector<EchoPath>& truth, const std::vector<EchoPath>& estimate, const Eigen::Vector3d& target,
+                const Eigen::Vector3d& image, double sound_speed) {
+  const std::size_t receivers = truth.size() / times.size();
   std::vector<double> line_times, errors;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (std::size_t i = 0; i < truth.size(); ++i) {
     line_times.push_back(times[i / receivers]);
-    errors.push_back((pathLength(paths[i], target, sonar.sound_speed) - pathLength(true_paths[i], target, sonar.sound_speed)) / 2);
+    errors.push_back((pathLength(estimate[i], image, sound_speed) - pathLength(truth[i], target, sound_speed)) / 2);
   }
   return fitTrend(line_times, errors);
 }
@@ -49,22 +58,19 @@ Trend fitTrend(const std::vector<double>& times, const std::vector<double>& valu
 
 ApertureTrajectoryError apertureTrajectoryError(const SonarDescription& sonar, const std::vector<double>& times, const std::vector<PingPose>& truth,
                                                 const std::vector<PingPose>& estimate, const Eigen::Vector3d& target) {
-  const Eigen::Vector3d line_of_sight = wayTo(truth, target).normalized();
+  const Eigen::Vector3d way = wayTo(truth, target);
   std::vector<double> along, slant;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Eigen::Vector3d error = estimate[i].position - truth[i].position;
     along.push_back(error.x());
-    slant.push_back(-error.dot(line_of_sight));
+    slant.push_back(-error.dot(way.normalized()));
   }
-  return {fitTrend(times, along), fitTrend(times, slant), pathError(sonar, times, truth, estimate, target)};
-}
-
-Eigen::Vector3d imageShift(const ApertureTrajectoryError& error, const std::vector<PingPose>& truth, double speed, const Eigen::Vector3d& target) {
-  const Eigen::Vector3d way = wayTo(truth, target);
-  const double range = way.norm(), ground = way.head<2>().norm();
-  const double outwards = -error.line_of_sight.mean * range / ground;
-  const double along = error.along.mean + error.line_of_sight.slope * range / speed;
-  return {along, std::copysign(1.0, way.y()) * outwards, 0};
+  ApertureTrajectoryError result;
+  result.along = fitTrend(times, along);
+  result.line_of_sight = fitTrend(times, slant);
+  result.image_shift = imageShift(result.along, result.line_of_sight, trackSpeed(times, truth), way);
+  result.path = pathError(times, echoPaths(sonar, truth), echoPaths(sonar, estimate), target, target + result.image_shift, sonar.sound_speed);
+  return result;
 }
 
 }  // namespace sas_motion::imaging

@@ -57,18 +57,17 @@ FocusBench::FocusBench(const FocusOptions& options, const FocusSettings& setting
 }
 
 FocusedTrajectory FocusBench::focus(const RecordedTrajectory& trajectory, std::size_t which) {
-  const auto &truth = pings_.poses.front(), &poses = pings_.poses[which];
+  const auto& poses = pings_.poses[which];
   FocusedTrajectory result;
   result.name = trajectory.name;
   result.topic = trajectory.topic;
-  result.error = apertureTrajectoryError(settings_.sonar, pings_.times, truth, poses, places_.front());
-  result.shift = imageShift(result.error, truth, pings_.window.speed, places_.front());
+  result.error = apertureTrajectoryError(settings_.sonar, pings_.times, pings_.poses.front(), poses, places_.front());
   lines_.paths = echoPaths(settings_.sonar, poses);
   BackprojectionOptions backprojection;
   backprojection.threads = options_.jobs;
   backprojection.memory_limit = settings_.memory_limit;
   ImageGrid grid = grid_;
-  grid.origin += result.shift;
+  grid.origin += result.error.image_shift;
   const Image image = backproject(lines_, grid, backprojection);
   result.image = measured(image, which, trajectory.name);
   if (options_.autofocus) result.autofocused = measured(phaseGradientAutofocus(image, {}).image, which, trajectory.name + "_autofocus");
@@ -90,12 +89,11 @@ FocusImage FocusBench::measured(const Image& image, std::size_t which, const std
 /// Looks for the peak where mean and trend of the trajectory's error must have moved it, but measures its error from where the target is.
 PointTargetMeasures FocusBench::measuredTarget(const Image& image, std::size_t which, std::size_t target) {
   const Eigen::Vector3d& place = places_[target];
-  const auto& truth = pings_.poses.front();
-  const auto error = apertureTrajectoryError(settings_.sonar, pings_.times, truth, pings_.poses[which], place);
+  const auto error = apertureTrajectoryError(settings_.sonar, pings_.times, pings_.poses.front(), pings_.poses[which], place);
   ChipOptions chip;
   chip.half_size = kHalfChip;
   chip.search_radius = searchRadius(settings_, grid_, kHalfChip);
-  auto measures = measurePointTarget(image, place + imageShift(error, truth, pings_.window.speed, place), chip);
+  auto measures = measurePointTarget(image, place + error.image_shift, chip);
   if (target == reference_powers_.size()) reference_powers_.push_back(std::max(measures.range.peak_power, measures.along.peak_power));
   measures.peak_loss += 10 * std::log10(reference_powers_[target]);
   if (measures.complete) measures.peak_error = (measures.peak_position - place).head<2>().norm();

@@ -42,7 +42,7 @@ json toJson(const FocusedTrajectory& trajectory, double wavelength) {
     entry["aperture_error"][name] = trend.rms;
     entry["aperture_error"][std::string(name) + "_wavelengths"] = trend.rms / wavelength;
   }
-  entry["image_shift"] = toJson(trajectory.shift);
+  entry["image_shift"] = toJson(error.image_shift);
   if (trajectory.autofocused) entry["autofocused"] = toJson(*trajectory.autofocused);
   return entry;
 }

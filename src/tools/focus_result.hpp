@@ -34,7 +34,6 @@ struct FocusImage {
 struct FocusedTrajectory {
   std::string name, topic;
   imaging::ApertureTrajectoryError error;
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< of the image, as mean and trend of the error let expect [m]
   FocusImage image;
   std::optional<FocusImage> autofocused;
 };

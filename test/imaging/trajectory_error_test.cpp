@@ -58,7 +58,8 @@ TEST(ImageShift, IsWhereThePeakGoes) {
   const auto truth = track(200, 0.02);
   auto estimate = truth;
   for (auto& pose : estimate) pose.position += Eigen::Vector3d(0.7, 0.4 + 0.01 * pose.position.x(), 0);
-  const auto shift = imageShift(apertureTrajectoryError(sonar, timesOf(truth), truth, estimate, kTarget), truth, 2, kTarget);
+  const auto error = apertureTrajectoryError(sonar, timesOf(truth), truth, estimate, kTarget);
+  const Eigen::Vector3d shift = error.image_shift;
   EchoLines lines = compressedEchoes(sonar, echoPaths(sonar, truth), points({kTarget}));
   lines.paths = echoPaths(sonar, estimate);
   ImageGrid grid = gridAround(kTarget + shift, 160, 128);
@@ -68,6 +69,7 @@ TEST(ImageShift, IsWhereThePeakGoes) {
   const auto measures = measurePointTarget(backproject(lines, grid, {}), kTarget + shift, chip);
   ASSERT_TRUE(measures.complete);
   EXPECT_GT(shift.norm(), 0.5);
+  EXPECT_LT(error.path.rms, 1e-4) << "a moved image is no blurred one";
   EXPECT_NEAR(measures.peak_position.x() - kTarget.x(), shift.x(), 0.02);
   EXPECT_NEAR(measures.peak_position.y() - kTarget.y(), shift.y(), 0.005);
 }

@@ -21,15 +21,14 @@ Trend fitTrend(const std::vector<double>& times, const std::vector<double>& valu
 struct ApertureTrajectoryError {
   Trend along;          ///< along the track [m]
   Trend line_of_sight;  ///< positive: too far from the target [m]
-  Trend path;           ///< half of each line's path by the target, so with attitude and velocity too; positive: too long [m]
+  /// How far mean and trend move the image, in the plane of the bottom: the mean moves it as a whole, a trend in the line of sight turns the track and so moves
+  /// it along, by the slope times range over speed [m].
+  Eigen::Vector3d image_shift = Eigen::Vector3d::Zero();
+  Trend path;  ///< half of each line's path by the moved image, less the true one by the target: so with attitude and velocity too [m]
 };
 
 /// Errors in the frame of the aperture at the pings' times [s], the line of sight being that from the middle of the true positions.
 ApertureTrajectoryError apertureTrajectoryError(const SonarDescription& sonar, const std::vector<double>& times, const std::vector<PingPose>& truth,
                                                 const std::vector<PingPose>& estimate, const Eigen::Vector3d& target);
-
-/// How far mean and trend of the error move the image of this target, in the plane of the bottom: the mean moves it as a whole, a trend in the line of sight
-/// turns the track and so moves it along by the slope times range over speed [m].
-Eigen::Vector3d imageShift(const ApertureTrajectoryError& error, const std::vector<PingPose>& truth, double speed, const Eigen::Vector3d& target);
 
 }  // namespace sas_motion::imaging
