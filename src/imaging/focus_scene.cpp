@@ -13,6 +13,7 @@
 namespace sas_motion::imaging {
 namespace {
 
+constexpr int kMostPixels = 1000000;         // along a side
 constexpr double kStepOverResolution = 0.4;  // leaves room for the beam's edges and a track that an estimate has turned
 
 /// Outwards from the track.
@@ -23,6 +24,18 @@ double groundRange(const SonarDescription& sonar, double range) { return std::sq
 double leastRange(const FocusSettings& settings) {
   const auto nearer = [](const TargetSettings& a, const TargetSettings& b) { return a.range < b.range; };
   return std::min_element(settings.targets.begin(), settings.targets.end(), nearer)->range;
+}
+
+/// Along track, of an aperture of this length; the elements hear little beyond the first null of their beam, however long it is.
+double alongResolution(const FocusSettings& settings, double aperture_length) {
+  return std::max(settings.sonar.wavelength() * leastRange(settings) / (2 * aperture_length), settings.sonar.element / 4);
+}
+
+int pixelCount(const char* key, double length, double step) {
+  const double count = std::ceil(length / step) + 1;
+  if (count > kMostPixels)
+    throw std::invalid_argument(fmt::format("image.{} is {:.3g}, which makes {:.3g} pixels; at most {} are possible", key, step, count, kMostPixels));
+  return static_cast<int>(count);
 }
 
 Scene speckle(const FocusSettings& settings, const ImageGrid& grid) {
@@ -64,7 +77,7 @@ ImageGrid focusGrid(const FocusSettings& settings, double aperture_length, int h
   grid.along_axis = Eigen::Vector3d::UnitX();
   const GridSettings& image = settings.image;
   grid.range_step = image.range_step > 0 ? image.range_step : kStepOverResolution * sonar.rangeResolution();
-  grid.along_step = image.along_step > 0 ? image.along_step : kStepOverResolution * sonar.wavelength() * leastRange(settings) / (2 * aperture_length);
+  grid.along_step = image.along_step > 0 ? image.along_step : kStepOverResolution * alongResolution(settings, aperture_length);
   const double margin_needed = (half_chip + 1) * std::max(grid.range_step, grid.along_step) + 0.1;  // 0.1 m to look for a peak in
   if (image.margin < margin_needed)
     throw std::invalid_argument(
@@ -73,8 +86,8 @@ ImageGrid focusGrid(const FocusSettings& settings, double aperture_length, int h
   for (const auto& place : targetPlaces(settings)) box.extend(Eigen::Vector2d(place.dot(grid.range_axis), place.x()));
   const Eigen::Vector2d first = box.min().array() - image.margin, size = box.sizes().array() + 2 * image.margin;
   grid.origin = first.x() * grid.range_axis + first.y() * grid.along_axis;
-  grid.rows = static_cast<int>(std::ceil(size.x() / grid.range_step)) + 1;
-  grid.columns = static_cast<int>(std::ceil(size.y() / grid.along_step)) + 1;
+  grid.rows = pixelCount("range_step", size.x(), grid.range_step);
+  grid.columns = pixelCount("along_step", size.y(), grid.along_step);
   return grid;
 }
 

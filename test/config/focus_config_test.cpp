@@ -85,6 +85,10 @@ TEST(FocusGrid, HoldsAllTargetsAndTheirSideLobes) {
     EXPECT_LT(column, grid.columns - 64);
   }
   EXPECT_NEAR(searchRadius(settings, grid, 64), (std::sqrt(28.0 * 28 - 100) - std::sqrt(25.0 * 25 - 100)) / 2, 1e-9) << "half way to the other";
+  EXPECT_GE(focusGrid(settings, 1000, 64).along_step, 0.4 * settings.sonar.element / 4) << "no finer than the beam lets see";
+  settings.image.range_step = 1e-9;
+  EXPECT_THROW(focusGrid(settings, 4.5, 64), std::invalid_argument);
+  settings.image = {};
   settings.image.margin = 0.5;
   EXPECT_THROW(focusGrid(settings, 4.5, 64), std::invalid_argument);
 }

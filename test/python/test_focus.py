@@ -152,15 +152,45 @@ def test_truth_is_brought_into_the_frame_of_the_estimates(tmp_path):
     """The estimates' origin is the first fix, truth's that of the scenario: a metre or so that is no error."""
     bag = toolbox.simulate(tmp_path / "survey.bag", duration=30, scenario=toolbox.SCENARIOS / "survey.yaml")
     bag = toolbox.reprocess(bag, tmp_path / "reprocessed", ["rts"])
-    first, last = (toolbox.topics(bag)["truth/odometry"][i].pose.pose.position for i in (0, -1))
     toolbox.succeed("focus", bag, "-o", tmp_path / "out", "--no-figures")
-    origin = measures(tmp_path / "out")["window"]["origin_map"]
+    window = measures(tmp_path / "out")["window"]
+    truth = toolbox.topics(bag)["truth/odometry"]
+    times = [m.header.stamp.to_sec() - truth[0].header.stamp.to_sec() for m in truth]
+    middle = window["start"] + (window["pings"] - 1) / 2 / window["ping_rate"]
+    at = [np.interp(middle, times, [getattr(m.pose.pose.position, axis) for m in truth]) for axis in "xy"]
     datum = toolbox.topics(bag)["datum"][0]
     metres = np.array([(datum.longitude - 10.15) * math.cos(math.radians(54.35)), datum.latitude - 54.35]) * 111.3e3
-    between = [sorted(pair) for pair in ((first.x, last.x), (first.y, last.y))]
-    assert np.hypot(*metres) > 0.1
-    for axis in range(2):
-        assert between[axis][0] - 0.5 <= origin[axis] + metres[axis] <= between[axis][1] + 0.5
+    assert np.hypot(*metres) > 0.3
+    assert np.array(window["origin_map"][:2]) + metres == pytest.approx(np.array(at), abs=0.05)
+
+
+def test_two_targets_to_port_are_both_measured(sailed, tmp_path):
+    config = toolbox.write_yaml(tmp_path / "focus.yaml", {**SETTINGS, "side": "port", "targets": [{"range": 29.5, "along": -0.8}, {"range": 30.5, "along": 0.8}]})
+    toolbox.succeed("focus", sailed, "-o", tmp_path / "out", "--config", config, "--trajectory", "sixteenth", "--no-figures")
+    places = [target["place"] for target in measures(tmp_path / "out")["targets"]]
+    assert [place[0] for place in places] == [-0.8, 0.8] and places[0][1] == pytest.approx(math.sqrt(29.5 ** 2 - ALTITUDE ** 2))
+    for truth, swayed in zip(measures(tmp_path / "out", "truth")["targets"], measures(tmp_path / "out", "sixteenth")["targets"]):
+        assert truth["peak_error"] < 0.02 and truth["peak_loss"] == 0
+        assert swayed["peak_error"] < 0.05 and swayed["peak_loss"] == pytest.approx(1.3, abs=0.5)
+
+
+def test_a_block_throws_a_shadow(sailed, tmp_path):
+    sonar = {**SETTINGS["sonar"], "bandwidth": 20000, "near_range": 29, "far_range": 31.5}
+    speckle = {"density": 300, "block": {"along": 0, "range": 0.5, "size": [1, 0.3, 0.5]}}
+    config = toolbox.write_yaml(tmp_path / "focus.yaml", {**SETTINGS, "sonar": sonar, "speckle": speckle, "image": {"margin": 1.6, "range_step": 0.02}})
+    toolbox.succeed("focus", sailed, "-o", tmp_path / "out", "--config", config, "--trajectory", "truth", "--no-figures", "--jobs", 2)
+    power = np.abs(np.load(tmp_path / "out" / "truth.npy")) ** 2
+    axes = json.loads((tmp_path / "out" / "truth.json").read_text(encoding="utf-8"))
+    outwards = -axes["origin"][1] + np.arange(axes["rows"]) * axes["range_step"] - GROUND
+    along = axes["origin"][0] + np.arange(axes["columns"]) * axes["along_step"]
+    behind = (outwards > 0.85) & (outwards < 1.3)
+    shadow, beside = power[np.ix_(behind, np.abs(along) < 0.2)].mean(), power[np.ix_(behind, (along > 0.8) & (along < 1.4))].mean()
+    assert shadow < 0.1 * beside
+
+
+def test_a_folder_without_results_cannot_be_drawn(tmp_path):
+    done = toolbox.run("plot_focus.py", tmp_path)
+    assert done.returncode == 1 and len(done.stderr.splitlines()) == 1 and str(tmp_path) in done.stderr
 
 
 # ---- bad input
@@ -173,6 +203,7 @@ BAD = {"no truth": ({}, [], ["truth/odometry"]),
        "undersampled": ({"sonar": {**SETTINGS["sonar"], "receivers": 4, "speed": 0.5}}, [], ["ping_rate is 20.5", "at least 25"]),
        "memory": ({"speckle": {"density": 900000}, "memory_limit": 1e8}, [], ["MB", "speckle.density", "memory_limit"]),
        "small image": ({"image": {"margin": 2}}, [], ["image.margin is 2", "at least"]),
+       "too many pixels": ({"image": {"margin": 6, "range_step": 1e-8}}, [], ["image.range_step", "at most 1000000"]),
        "unknown key": ({"apertur": 1}, [], ["focus.yaml", "apertur"])}
 
 
