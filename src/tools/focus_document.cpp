@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "focus_result.hpp"
@@ -58,14 +57,16 @@ json windowJson(const FocusWindow& window) {
           {"yaw_deg", window.frame.yaw / kRadPerDeg}};
 }
 
-std::string tableRow(const std::string& name, const ApertureTrajectoryError& error, double wavelength, const PointTargetMeasures& target, double entropy) {
-  std::string row =
-      fmt::format("{:<24}{:>9.4f}{:>9.4f}{:>9.4f}{:>8.3f}", name, error.line_of_sight.rms, error.along.rms, error.path.rms, error.path.rms / wavelength);
-  if (!target.complete) return row + "   no peak whose side lobes lie inside the image\n";
+std::string errorCells(const ApertureTrajectoryError& error, double wavelength) {
+  return fmt::format("{:>9.4f}{:>9.4f}{:>9.4f}{:>8.3f}", error.line_of_sight.rms, error.along.rms, error.path.rms, error.path.rms / wavelength);
+}
+
+std::string measureCells(const PointTargetMeasures& target, double entropy) {
+  if (!target.complete) return "   no peak whose side lobes lie inside the image\n";
   const auto cut = [](const CutMeasures& c) {
     return fmt::format("{:>8.3f}{:>7.1f}{:>7.1f}{:>7.2f}{}", c.irw, c.pslr, c.islr, c.extent, c.complete ? ' ' : '*');
   };
-  return row + fmt::format("{}{}{:>7.1f}{:>8.2f}{:>8.2f}\n", cut(target.along), cut(target.range), target.peak_loss, target.peak_error, entropy);
+  return fmt::format("{}{}{:>7.1f}{:>8.2f}{:>8.2f}\n", cut(target.along), cut(target.range), target.peak_loss, target.peak_error, entropy);
 }
 
 /// Aperture errors are RMS without mean and trend.
@@ -94,21 +95,18 @@ std::string focusDocument(const FocusResult& result) {
 std::string focusTable(const FocusResult& result) {
   const FocusWindow& window = result.window;
   const double wavelength = result.settings.sonar.wavelength();
-  std::string text = fmt::format("{}: {:.2f} s from {:.2f} s at {:.2f} m/s: {:.1f} m of aperture, {} pings, wavelength {:.4g} m\n", result.bag, window.duration,
-                                 window.start, window.speed, window.speed * window.duration, window.pings, wavelength);
+  const std::string text = fmt::format("{}: {:.2f} s from {:.2f} s at {:.2f} m/s: {:.1f} m of aperture, {} pings, wavelength {:.4g} m\n", result.bag,
+                                       window.duration, window.start, window.speed, window.speed * window.duration, window.pings, wavelength);
+  std::string tables;
   for (std::size_t i = 0; i < result.settings.targets.size(); ++i) {
-    text += fmt::format("\ntarget at {} m\n{}", result.settings.targets[i].range, tableHead());
+    tables += fmt::format("\ntarget at {} m\n{}", result.settings.targets[i].range, tableHead());
     for (const auto& t : result.trajectories) {
-      text += tableRow(t.name, t.error, wavelength, t.image.targets[i], t.image.entropy);
-      if (t.autofocused) text += tableRow("  autofocused", t.error, wavelength, t.autofocused->targets[i], t.autofocused->entropy);
+      tables += fmt::format("{:<24}{}{}", t.name, errorCells(t.error, wavelength), measureCells(t.image.targets[i], t.image.entropy));
+      if (t.autofocused) tables += fmt::format("{:<59}{}", "  autofocused", measureCells(t.autofocused->targets[i], t.autofocused->entropy));
     }
   }
-  const auto cut_off = [](const FocusedTrajectory& t) {
-    return std::any_of(t.image.targets.begin(), t.image.targets.end(), [](const auto& m) { return m.complete && !(m.along.complete && m.range.complete); });
-  };
-  if (std::any_of(result.trajectories.begin(), result.trajectories.end(), cut_off))
-    text += "* the main lobe or the extent reaches over the chip: what is missing is left out\n";
-  return text;
+  if (tables.find('*') != std::string::npos) tables += "* the main lobe or the extent reaches over the chip: what is missing is left out\n";
+  return text + tables;
 }
 
 }  // namespace sas_motion

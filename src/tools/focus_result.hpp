@@ -33,7 +33,7 @@ struct FocusImage {
 /// One trajectory and its images.
 struct FocusedTrajectory {
   std::string name, topic;
-  imaging::ApertureTrajectoryError error;
+  imaging::ApertureTrajectoryError error;  ///< towards the first target
   FocusImage image;
   std::optional<FocusImage> autofocused;
 };

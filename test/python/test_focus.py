@@ -125,6 +125,13 @@ def test_the_images_have_their_axes_beside(focused):
     assert summary["window"]["speed"] == pytest.approx(SPEED) and summary["window"]["yaw_deg"] == pytest.approx(0, abs=1e-9)
 
 
+def test_the_measures_obey_their_schema(focused):
+    jsonschema = pytest.importorskip("jsonschema")
+    schema = json.loads((toolbox.ROOT / "docs" / "focus.schema.json").read_text(encoding="utf-8"))
+    jsonschema.Draft7Validator.check_schema(schema)
+    jsonschema.validate(measures(focused[0]), schema)
+
+
 def test_the_figures_are_drawn(sailed, config, tmp_path):
     toolbox.succeed("focus", sailed, "-o", tmp_path, "--config", config, "--trajectory", "eighth", "--jobs", 2)
     assert {path.name for path in tmp_path.iterdir()} == {f"{name}.{kind}" for name in ("truth", "eighth") for kind in ("npy", "json", "png")} | {"focus.json", "focus.png"}
