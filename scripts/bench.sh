@@ -43,6 +43,9 @@ echo; echo "bench: USBL calibration: an update of each filter, and the batch"
 echo; echo "bench: USBL calibration: how the noise is followed, and a circle that tells too little"
 "$tools/usbl_figures" $((smoke == 1 ? 3 : 300))
 
+echo; echo "bench: backprojection, by vector instructions, beside a plain loop in double; and factorised"
+"$tools/backprojection_speed" $((smoke == 1 ? 1 : 20))
+
 echo; echo "bench: rts beside batch"
 "$tools/smoother_speed" "$nodes"
 

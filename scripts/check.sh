@@ -44,8 +44,8 @@ build_with() {
 
 check_address() {
   echo "check: tests and tools under the address and undefined-behaviour sanitizers (about 15 minutes to build on two cores the first time)"
-  build_with address address,undefined core_tests filter_tests allocation_tests pipeline_tests graph_tests simulate reprocess sas_motion_metrics run_campaign
-  for tests in core filter allocation pipeline graph; do (cd "$work/address/test" && "./${tests}_tests" --gtest_brief=1); done
+  build_with address address,undefined core_tests filter_tests allocation_tests pipeline_tests imaging_tests usbl_tests graph_tests simulate reprocess sas_motion_metrics run_campaign calibrate_usbl focus plan_track
+  for tests in core filter allocation pipeline imaging usbl graph; do (cd "$work/address/test" && "./${tests}_tests" --gtest_brief=1); done
   # ROS's own libraries leave a few objects behind at exit.
   (set +u; source "$work/address/devel/setup.bash"; ASAN_OPTIONS=detect_leaks=0 /usr/bin/python3 -m pytest -q -p no:cacheprovider test/python/test_tools.py)
 }
