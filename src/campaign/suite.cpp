@@ -56,8 +56,10 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
       suite.campaigns.push_back(makeTowfishSystem(item, folder, make));
     else if (kind == "constant_velocity")
       suite.campaigns.push_back(makeConstantVelocitySystem(item));
+    else if (kind == "ins_gps_dvl")
+      suite.campaigns.push_back(makeInsSystem(item, folder));
     else
-      item.fail("system", fmt::format("is '{}' but must be towfish or constant_velocity", kind));
+      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity or ins_gps_dvl", kind));
     suite.campaigns.back()->title = name;
     suite.campaigns.back()->kind = kind;
     item.finish();

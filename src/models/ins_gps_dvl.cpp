@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/models/ins_gps_dvl.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "sas_motion/navigation/earth.hpp"
@@ -19,12 +20,17 @@ Vector<3> positionOf(const NavigationState& state) { return {state.longitude, st
 
 }  // namespace
 
+const char* sensorName(Sensor sensor) {
+  constexpr std::array<const char*, kSensors> names{"gps", "dvl", "depth"};
+  return names[static_cast<std::size_t>(sensor)];
+}
+
 Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_nav) {
   const auto [M, N] = earth::radii(state.latitude, state.height);
   const double s = std::sin(state.latitude), c = std::cos(state.latitude), t = s / c, w = earth::kRotationRate;
   const double vE = state.velocity_nav.x(), vN = state.velocity_nav.y(), vU = state.velocity_nav.z();
   const double fE = force_nav.x(), fN = force_nav.y(), fU = force_nav.z();
-  Matrix<9> F;  // vE vN vU, longitude latitude height, phiE phiN phiU
+  Matrix<9> F;                                                            // vE vN vU, longitude latitude height, phiE phiN phiU
   F << (vN * t - vU) / N, 2 * w * s + vE * t / N, -(2 * w * c + vE / N),  //
       0, 2 * w * (c * vN + s * vU) + vE * vN / (N * c * c), (vE * vU - vE * vN * t) / (N * N), 0, -fU, fN,
       //
@@ -100,8 +106,7 @@ Gaussian<kStates> ErrorModel::start() const {
   Gaussian<kStates> belief;
   belief.covariance = sigma.cwiseAbs2().asDiagonal();
   // Dead reckoning starts from the position of the INS.
-  belief.covariance.block<3, 3>(kPosition, kDvlPosition) = belief.covariance.block<3, 3>(kDvlPosition, kPosition) =
-      p.start_position.cwiseAbs2().asDiagonal();
+  belief.covariance.block<3, 3>(kPosition, kDvlPosition) = belief.covariance.block<3, 3>(kDvlPosition, kPosition) = p.start_position.cwiseAbs2().asDiagonal();
   belief.covariance.diagonal().segment<3>(kDvlPosition).array() += 1e-6;  // [m^2], so that it can be factorised
   return belief;
 }
@@ -125,7 +130,8 @@ Vector<3> ErrorModel::velocityOfIns(const NavigationState& ins, const Vector<3>&
   return velocity_dvl_body - over_ground.cross(parameters_.dvl_lever_body);
 }
 
-LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body, const Errors& mean) const {
+LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body,
+                                              const Errors& mean) const {
   LinearMeasurement<kStates, 3> z;
   const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
   z.H.setZero();

@@ -76,11 +76,6 @@ void readSensor(YamlSection& yaml, Scenario::Readings& readings, Vector<3>& leve
 
 }  // namespace
 
-const char* sensorName(Sensor sensor) {
-  constexpr std::array<const char*, kSensors> names{"gps", "dvl", "depth"};
-  return names[static_cast<std::size_t>(sensor)];
-}
-
 NoiseMix Scenario::readNoise(YamlSection& owner, const std::string& key) {
   NoiseMix mix = NoiseMix::read(owner, key);
   for (const auto& law : mix.laws)

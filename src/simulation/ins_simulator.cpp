@@ -84,7 +84,9 @@ class AidingSource {
     const double T = 1 / readings_.rate;
     Aiding& reading = labelled.reading;
     switch (sensor_) {
-      case Sensor::Gps: reading = gps(truth, parameters_.gps_markov.cwiseProduct(markov_.step(T, parameters_.gps_time, random_)) + parameters_.gps_white.cwiseProduct(noise)); break;
+      case Sensor::Gps:
+        reading = gps(truth, parameters_.gps_markov.cwiseProduct(markov_.step(T, parameters_.gps_time, random_)) + parameters_.gps_white.cwiseProduct(noise));
+        break;
       case Sensor::Dvl: reading = dvl(truth, parameters_.dvl_markov * markov_.step(T, parameters_.dvl_time, random_) + parameters_.dvl_white * noise); break;
       case Sensor::Depth: reading = depth(truth, parameters_.depth_white * noise(0)); break;
     }

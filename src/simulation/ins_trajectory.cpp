@@ -14,9 +14,9 @@
 namespace sas_motion::ins {
 namespace {
 
-constexpr double kNode = 0.25;                                                           // [s]
-const std::array<double, 3> kAbscissa{-0.7745966692414834, 0, 0.7745966692414834};      // Gauss-Legendre of degree 5 on [-1, 1]
-constexpr std::array<double, 3> kWeight{5.0 / 18, 8.0 / 18, 5.0 / 18};                  // over the interval's length
+constexpr double kNode = 0.25;                                                      // [s]
+const std::array<double, 3> kAbscissa{-0.7745966692414834, 0, 0.7745966692414834};  // Gauss-Legendre of degree 5 on [-1, 1]
+constexpr std::array<double, 3> kWeight{5.0 / 18, 8.0 / 18, 5.0 / 18};              // over the interval's length
 
 /// The mean of a function over an interval.
 template <class Function>
@@ -57,7 +57,8 @@ Trajectory::Trajectory(const Track& track, double duration)
       turn_time_(15.0 / 8 * kPi / checked("turn_rate", track.turn_rate)) {
   for (const Wave* wave : {&track.pitch, &track.roll, &track.yaw, &track.heave, &track.sway}) checked("period", wave->period);
   nodes_.push_back(Vector<2>::Zero());
-  for (double begin = 0; begin < duration + 1; begin = kNode * static_cast<double>(nodes_.size() - 1)) nodes_.push_back(nodes_.back() + way(begin, begin + kNode));
+  for (double begin = 0; begin < duration + 1; begin = kNode * static_cast<double>(nodes_.size() - 1))
+    nodes_.push_back(nodes_.back() + way(begin, begin + kNode));
 }
 
 Trajectory::Course Trajectory::course(double time) const {

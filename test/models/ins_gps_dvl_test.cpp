@@ -61,11 +61,14 @@ TEST(InsErrorModel, TransitionIsTheDerivativeOfTheMechanisation) {
     // GIVEN an error of 1 m/s, 1 km or 1 mrad at the start of the step
     const double size = column >= kPosition && column < kAttitude ? 1e3 : 1;
     const Errors e = size * Errors::Unit(column);
-    const Vector<9> forward = errorOf(mechanised(withError(state, e, model.unit())), truth), backward = errorOf(mechanised(withError(state, -e, model.unit())), truth);
+    const Vector<9> forward = errorOf(mechanised(withError(state, e, model.unit())), truth),
+                    backward = errorOf(mechanised(withError(state, -e, model.unit())), truth);
     const Vector<9> derivative = (forward - backward).cwiseQuotient(model.unit().head<9>()) / (2 * size);
     for (int row = 0; row < 9; ++row) {
+      // What is left out of F: e^2-sized derivatives of the radii, which move the position, and terms of third order in the step.
+      const double slack = row >= kAttitude ? 1e-11 : row >= kPosition ? 2e-9 : 1e-9;
       const double F = Phi(row, column) - (row == column), found = derivative(row) - (row == column);
-      EXPECT_NEAR(found, F, 0.01 * std::abs(F) + 1e-9) << "row " << row << ", column " << column;
+      EXPECT_NEAR(found, F, 0.01 * std::abs(F) + slack) << "row " << row << ", column " << column;
     }
   }
 }
@@ -106,7 +109,8 @@ class InsMeasurements : public ::testing::Test {
     for (int column = 0; column < 9; ++column) {
       const Errors e = size(column) * Errors::Unit(column);
       const auto difference = (measure(model, withError(truth_, e, model.unit()), Errors::Zero()).innovation -
-                               measure(model, withError(truth_, -e, model.unit()), Errors::Zero()).innovation).eval();
+                               measure(model, withError(truth_, -e, model.unit()), Errors::Zero()).innovation)
+                                  .eval();
       EXPECT_NEAR((difference / (2 * size(column)) - H.col(column)).norm(), 0, 1e-5) << "column " << column;
       // WHEN the errors are known THEN nothing is left to learn.
       EXPECT_NEAR(measure(model, withError(truth_, e, model.unit()), e).innovation.norm(), 0, 1e-4) << "column " << column;

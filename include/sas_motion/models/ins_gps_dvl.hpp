@@ -7,7 +7,7 @@
 #include "sas_motion/math/gaussian.hpp"
 #include "sas_motion/navigation/mechanisation.hpp"
 
-/// Centralised fusion of INS, GPS and DVL by their errors [Paper003; Qin]. Errors are computed minus true; C' = (I - [phi x]) C.
+/// Centralised fusion of INS, GPS and DVL by their errors [Qin2012]; numbers as in docs/ins_gps_dvl.md. Errors are computed minus true; C' = (I - [phi x]) C.
 namespace sas_motion::ins {
 
 constexpr int kStates = 27;
@@ -30,28 +30,42 @@ constexpr double kDegPerHour = kRadPerDeg / 3600;
 
 /// How wrong the sensors are: constants, first-order Markov processes and white noise. (C.4), its defaults.
 struct Parameters {
-  double gyro_constant = 0.02 * kDegPerHour;         ///< [rad/s]
-  double gyro_markov = 0.01 * kDegPerHour;           ///< [rad/s]
-  double gyro_time = 3600;                           ///< correlation time [s]
+  double gyro_constant = 0.02 * kDegPerHour;           ///< [rad/s]
+  double gyro_markov = 0.01 * kDegPerHour;             ///< [rad/s]
+  double gyro_time = 3600;                             ///< correlation time [s]
   double angle_random_walk = 0.003 * kRadPerDeg / 60;  ///< [rad/sqrt(s)]
-  double accelerometer_constant = 100e-6 * 9.80665;  ///< [m/s^2]
-  double velocity_random_walk = 10e-6 * 9.80665;     ///< [m/s/sqrt(s)]
-  Vector<3> gps_markov{2, 2, 4};                     ///< [m]
-  double gps_time = 60;                              ///< [s]
-  Vector<3> gps_white{0.5, 0.5, 1};                  ///< [m]
-  double dvl_markov = 0.01;                          ///< [m/s]
-  double dvl_time = 300;                             ///< [s]
-  double dvl_white = 0.01;                           ///< [m/s]
-  double dvl_rate = 5;                               ///< readings that are dead-reckoned [1/s]
-  double depth_white = 0.1;                          ///< [m]
-  Vector<3> start_position{2, 2, 2};                 ///< [m]
-  double start_velocity = 0.05;                      ///< [m/s]
-  double start_tilt = 0.01 * kRadPerDeg;             ///< [rad]
-  double start_heading = 0.1 * kRadPerDeg;           ///< [rad]
+  double accelerometer_constant = 100e-6 * 9.80665;    ///< [m/s^2]
+  double velocity_random_walk = 10e-6 * 9.80665;       ///< [m/s/sqrt(s)]
+  Vector<3> gps_markov{2, 2, 4};                       ///< [m]
+  double gps_time = 60;                                ///< [s]
+  Vector<3> gps_white{0.5, 0.5, 1};                    ///< [m]
+  double dvl_markov = 0.01;                            ///< [m/s]
+  double dvl_time = 300;                               ///< [s]
+  double dvl_white = 0.01;                             ///< [m/s]
+  double dvl_rate = 5;                                 ///< readings that are dead-reckoned [1/s]
+  double depth_white = 0.1;                            ///< [m]
+  Vector<3> start_position{2, 2, 2};                   ///< [m]
+  double start_velocity = 0.05;                        ///< [m/s]
+  double start_tilt = 0.01 * kRadPerDeg;               ///< [rad]
+  double start_heading = 0.1 * kRadPerDeg;             ///< [rad]
 
   Vector<3> gps_lever_body = Vector<3>::Zero();    ///< antenna from the INS [m]
   Vector<3> dvl_lever_body = Vector<3>::Zero();    ///< [m]
   Vector<3> depth_lever_body = Vector<3>::Zero();  ///< [m]
+};
+
+/// The sensors that aid the INS.
+enum class Sensor { Gps, Dvl, Depth };
+constexpr std::size_t kSensors = 3;
+const char* sensorName(Sensor sensor);
+constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : 3; }
+
+/// What one of the sensors that aid the INS says.
+struct Aiding {
+  Stamp stamp = 0;
+  Sensor sensor = Sensor::Gps;
+  NavigationState fix;                          ///< GPS: position of the antenna; depth: height of the sensor
+  Vector<3> velocity_body = Vector<3>::Zero();  ///< DVL: its velocity over the ground
 };
 
 /// Velocity, position and attitude rows of the INS error dynamics in SI units, (rad, rad, m) for the position. (C.2), with the derivative of

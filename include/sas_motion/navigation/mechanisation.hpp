@@ -51,10 +51,10 @@ struct ImuStep {
 class Mechanisation {
  public:
   struct Options {
-    double period = 0.01;     ///< of the unit [s]
-    double longest_gap = 0.1; ///< that a reading speaks for [s]
-    double max_rate = 20;     ///< [rad/s]
-    double max_force = 200;   ///< [m/s^2]
+    double period = 0.01;      ///< of the unit [s]
+    double longest_gap = 0.1;  ///< that a reading speaks for [s]
+    double max_rate = 20;      ///< [rad/s]
+    double max_force = 200;    ///< [m/s^2]
   };
 
   /// Throws std::invalid_argument where an option is not positive.

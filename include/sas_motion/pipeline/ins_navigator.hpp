@@ -9,7 +9,6 @@
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/models/ins_gps_dvl.hpp"
-#include "sas_motion/simulation/ins_simulator.hpp"
 
 namespace sas_motion::ins {
 
@@ -80,8 +79,8 @@ class Navigator {
   double since_ = 0;
   Vector<3> force_sum_ = Vector<3>::Zero(), velocity_sum_ = Vector<3>::Zero();
   Matrix<3> C_sum_ = Matrix<3>::Zero();
-  NavigationState reckoned_;                       // by the DVL, with its errors
-  std::optional<Vector<3>> velocity_body_;         // of the INS, by the DVL's last reading
+  NavigationState reckoned_;                // by the DVL, with its errors
+  std::optional<Vector<3>> velocity_body_;  // of the INS, by the DVL's last reading
   std::optional<Fix> gps_;
 };
 

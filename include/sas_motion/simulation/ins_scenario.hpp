@@ -13,11 +13,6 @@
 
 namespace sas_motion::ins {
 
-enum class Sensor { Gps, Dvl, Depth };
-constexpr std::size_t kSensors = 3;
-const char* sensorName(Sensor sensor);
-constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : 3; }
-
 /// A time without readings: under water there is no GPS.
 struct Outage {
   double begin = 0, end = 0;  ///< [s]
@@ -35,7 +30,7 @@ struct Scenario {
   double duration = 1200;  ///< [s]
   Track track;
   Parameters parameters;
-  double imu_rate = 100;  ///< [1/s]
+  double imu_rate = 100;                                                                                  ///< [1/s]
   std::array<Readings, kSensors> sensors{Readings{1, {}, {}}, Readings{5, {}, {}}, Readings{1, {}, {}}};  ///< by Sensor
 
   Readings& sensor(Sensor which) { return sensors[static_cast<std::size_t>(which)]; }

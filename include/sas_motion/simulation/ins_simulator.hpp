@@ -10,14 +10,6 @@
 
 namespace sas_motion::ins {
 
-/// What one of the sensors that aid the INS says.
-struct Aiding {
-  Stamp stamp = 0;
-  Sensor sensor = Sensor::Gps;
-  NavigationState fix;                                 ///< GPS: position of the antenna; depth: height of the sensor
-  Vector<3> velocity_body = Vector<3>::Zero();         ///< DVL: its velocity over the ground
-};
-
 /// A reading with the simulator's labels.
 struct LabelledAiding {
   Aiding reading;
