@@ -17,7 +17,7 @@ using namespace ins;
 
 constexpr double kScoreEvery = 0.1;  // [s]
 
-enum class Source { Fused, Gps, Dvl };
+enum class Source { Fused, Gps, Dvl, Smooth };
 enum class FilterKind { Unaided, Ckf27, OpenLoopCkf27, RobustCkf27 };
 
 /// An estimator of a campaign: which filter runs, and which of its solutions is meant.
@@ -26,7 +26,7 @@ struct Candidate {
   FilterKind filter;
   Source source;
 };
-constexpr std::array<Candidate, 10> kCandidates{{{"ins", FilterKind::Unaided, Source::Fused},
+constexpr std::array<Candidate, 12> kCandidates{{{"ins", FilterKind::Unaided, Source::Fused},
                                                  {"gps", FilterKind::Unaided, Source::Gps},
                                                  {"dvl", FilterKind::Unaided, Source::Dvl},
                                                  {"ckf27", FilterKind::Ckf27, Source::Fused},
@@ -35,7 +35,9 @@ constexpr std::array<Candidate, 10> kCandidates{{{"ins", FilterKind::Unaided, So
                                                  {"open_loop_ckf27", FilterKind::OpenLoopCkf27, Source::Fused},
                                                  {"robust_ckf27", FilterKind::RobustCkf27, Source::Fused},
                                                  {"gps_robust_ckf27", FilterKind::RobustCkf27, Source::Gps},
-                                                 {"dvl_robust_ckf27", FilterKind::RobustCkf27, Source::Dvl}}};
+                                                 {"dvl_robust_ckf27", FilterKind::RobustCkf27, Source::Dvl},
+                                                 {"smooth_ckf27", FilterKind::Ckf27, Source::Smooth},
+                                                 {"smooth_robust_ckf27", FilterKind::RobustCkf27, Source::Smooth}}};
 
 /// What one estimator made of a run.
 struct Scored {
@@ -104,6 +106,7 @@ class RunScoring {
     for (auto* one : scored) switch (one->candidate->source) {
         case Source::Fused: one->score.add(time, truth, {navigator.fused(), true, true, P}); break;
         case Source::Dvl: one->score.add(time, truth, {navigator.dvl(), true, false, nullptr}); break;
+        case Source::Smooth: one->score.add(time, truth, {navigator.smooth(), true, true, nullptr}); break;
         case Source::Gps:
           if (navigator.gps() && navigator.gps()->stamp == navigator.stamp()) one->score.add(time, truth, {navigator.gps()->state, false, false, nullptr});
           break;

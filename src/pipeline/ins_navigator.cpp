@@ -27,7 +27,13 @@ Update<Gaussian<kStates>, M> Unaided::update(const Gaussian<kStates>& prior, con
 
 template <class Filter>
 Navigator<Filter>::Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start, Stamp stamp, const Options& options)
-    : filter_(filter), model_(parameters, start), options_(options), ins_(start, stamp, options.imu), belief_(model_.start()), reckoned_(start) {}
+    : filter_(filter),
+      model_(parameters, start),
+      options_(options),
+      ins_(start, stamp, options.imu),
+      belief_(model_.start()),
+      reckoned_(start),
+      smooth_(start) {}
 
 template <class Filter>
 ImuStep Navigator<Filter>::add(const ImuReading& reading) {
@@ -35,7 +41,7 @@ ImuStep Navigator<Filter>::add(const ImuReading& reading) {
   const ImuStep step{ins_.judge(reading), secondsBetween(ins_.stamp(), reading.stamp)};
   if (step.verdict == ImuVerdict::Implausible || step.verdict == ImuVerdict::OutOfOrder) return {step.verdict, 0};
   std::stable_sort(waiting_.begin(), waiting_.end(), before);
-  if (step.verdict == ImuVerdict::Bridged) widenForGap(step.dt);
+  gap_ = step.verdict == ImuVerdict::Bridged ? step.dt : 0;
   for (; !waiting_.empty() && waiting_.front().stamp <= reading.stamp; waiting_.pop_front()) {
     const Aiding& next = waiting_.front();
     if (next.stamp < ins_.stamp()) {
@@ -53,6 +59,7 @@ ImuStep Navigator<Filter>::add(const ImuReading& reading) {
 template <class Filter>
 void Navigator<Filter>::advance(const ImuReading& reading, Stamp stamp) {
   const double dt = secondsBetween(ins_.stamp(), stamp);
+  const NavigationState before = ins_.state();
   ins_.advance(reading, stamp);
   if (!(dt > 0)) return;
   const NavigationState& state = ins_.state();
@@ -62,7 +69,10 @@ void Navigator<Filter>::advance(const ImuReading& reading, Stamp stamp) {
   velocity_sum_ += dt * state.velocity_nav;
   C_sum_ += dt * C;
   displace(reckoned_, dt * (velocity_body_ ? Vector<3>(C * *velocity_body_) : state.velocity_nav));
-  if (since_ > options_.step - 1e-9) predict();
+  const Vector<3> fused_step = displacement(before, state) - dt * belief_.mean.template head<3>();
+  displace(smooth_, fused_step + dt / options_.smooth_time * displacement(smooth_, fused()));
+  if (since_ > options_.step - 1e-9 || gap_ > 0) predict();
+  if (gap_ > 0) widenForGap(dt);
 }
 
 template <class Filter>
@@ -113,13 +123,22 @@ NavigationState Navigator<Filter>::dvl() const {
 }
 
 template <class Filter>
-void Navigator<Filter>::widenForGap(double gap) {
-  const Errors& unit = model_.unit();
-  const double velocity = options_.bridge_force * gap, angle = options_.bridge_rate * gap / unit(kAttitude);
+NavigationState Navigator<Filter>::smooth() const {
+  NavigationState state = fused();
+  state.latitude = smooth_.latitude;
+  state.longitude = smooth_.longitude;
+  state.height = smooth_.height;
+  return state;
+}
+
+/// A part of a gap: the variances of its parts add up to those of a force and a rate that are wrong throughout.
+template <class Filter>
+void Navigator<Filter>::widenForGap(double part) {
+  const double force = options_.bridge_force, rate = options_.bridge_rate / model_.unit()(kAttitude);
   Errors variance = Errors::Zero();
-  variance.segment<3>(kVelocity).setConstant(velocity * velocity);
-  variance.segment<3>(kPosition).setConstant(0.25 * velocity * velocity * gap * gap);
-  variance.segment<3>(kAttitude).setConstant(angle * angle);
+  variance.segment<3>(kVelocity).setConstant(force * force * gap_ * part);
+  variance.segment<3>(kPosition).setConstant(0.25 * force * force * gap_ * gap_ * gap_ * part);
+  variance.segment<3>(kAttitude).setConstant(rate * rate * gap_ * part);
   addCovariance(belief_, ErrorMatrix(variance.asDiagonal()));
 }
 

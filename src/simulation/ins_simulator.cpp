@@ -94,7 +94,7 @@ class AidingSource {
     reading.stamp = stampFromSeconds(time);
     reading.sensor = sensor_;
     last_ = reading;
-    const auto in = [&](const Outage& outage) { return time >= outage.begin && time < outage.end; };
+    const auto in = [&](const Outage& outage) { return time >= outage.begin && time <= outage.end; };
     if (!missing && std::none_of(readings_.outages.begin(), readings_.outages.end(), in)) all.push_back(labelled);
   }
 

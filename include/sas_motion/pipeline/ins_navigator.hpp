@@ -37,7 +37,8 @@ class Navigator {
  public:
   struct Options {
     bool feedback = true;
-    double step = 0.2;  ///< longest time of one prediction of the filter [s]
+    double step = 0.2;         ///< longest time of one prediction of the filter [s]
+    double smooth_time = 600;  ///< in which the smooth solution follows the fused one [s]
     Mechanisation::Options imu;
     double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
   };
@@ -58,6 +59,8 @@ class Navigator {
   };
   const std::optional<Fix>& gps() const { return gps_; }
   NavigationState dvl() const;
+  /// For imaging: the fused velocity, integrated, so that no fix makes it jump within an aperture. It follows the fused position slowly.
+  NavigationState smooth() const;
   const Gaussian<kStates>& belief() const { return belief_; }  ///< errors of the INS as it stands
   const ErrorModel& model() const { return model_; }
 
@@ -65,7 +68,7 @@ class Navigator {
   void advance(const ImuReading& reading, Stamp stamp);
   void predict();
   void fuse(const Aiding& reading);
-  void widenForGap(double gap);
+  void widenForGap(double part);
   void feedBack();
 
   Filter filter_;
@@ -77,9 +80,11 @@ class Navigator {
   std::vector<Audit> audits_;
   // Sums over the time that the filter has not predicted yet.
   double since_ = 0;
+  double gap_ = 0;  // of the reading that is integrated, where it bridges one [s]
   Vector<3> force_sum_ = Vector<3>::Zero(), velocity_sum_ = Vector<3>::Zero();
   Matrix<3> C_sum_ = Matrix<3>::Zero();
-  NavigationState reckoned_;                // by the DVL, with its errors
+  NavigationState reckoned_;  // by the DVL, with its errors
+  NavigationState smooth_;
   std::optional<Vector<3>> velocity_body_;  // of the INS, by the DVL's last reading
   std::optional<Fix> gps_;
 };

@@ -15,7 +15,7 @@ namespace sas_motion::ins {
 
 /// A time without readings: under water there is no GPS.
 struct Outage {
-  double begin = 0, end = 0;  ///< [s]
+  double begin = 0, end = 0;  ///< first and last moment without [s]
 };
 
 /// A survey with INS, GPS, DVL and a depth gauge.
