@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "sas_motion/evaluation/aperture.hpp"
-#include "sas_motion/navigation/attitude.hpp"
 
 namespace sas_motion::ins {
 namespace {
@@ -33,10 +32,12 @@ void Score::add(double time, const TruthSample& truth, const Solution& solution)
     errors_["tilt"].push_back(phi.head<2>().norm());
     errors_["heading"].push_back(std::abs(phi.z()));
   }
-  const double heading = attitudeOf(truth.state.q_nav_body.toRotationMatrix()).heading, s = std::sin(heading), c = std::cos(heading);
-  time_.push_back(time);
-  along_.push_back(position.x() * s + position.y() * c);
-  across_.push_back(position.x() * c - position.y() * s);
+  if (truth.turn_rate == 0) {  // images are taken on lines; seen along the track, not the swinging bow
+    const double sine = std::sin(truth.course), cosine = std::cos(truth.course);
+    time_.push_back(time);
+    along_.push_back(position.x() * sine + position.y() * cosine);
+    across_.push_back(position.x() * cosine - position.y() * sine);
+  }
   trace_.time.push_back(time);
   trace_.error.push_back(position.head<2>().norm());
   if (!solution.P) return;
@@ -84,7 +85,7 @@ EstimatorReport Score::report(const std::string& name) const {
   report.estimator = name;
   report.diverged = !finite_;
   report.locked_out = lock_out_.lockedOut();
-  report.samples = time_.size();
+  report.samples = trace_.time.size();
   for (const char* group : {"position", "height", "velocity", "tilt", "heading", "outage"})
     if (const auto found = errors_.find(group); found != errors_.end()) report.errors.emplace_back(group, towfish::summarize(found->second));
   for (const auto& [group, values] : nees_) report.nees.emplace_back(group, mean(values));

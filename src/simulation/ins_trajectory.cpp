@@ -93,6 +93,8 @@ TruthSample Trajectory::at(double time) const {
   const auto R0 = earth::radii(L0, track_.start.altitude);
   const double per_east = 1 / (R0.N * std::cos(L0)), per_north = 1 / R0.M;
   TruthSample truth;
+  truth.course = angle;
+  truth.turn_rate = rate;
   NavigationState& state = truth.state;
   state.latitude = L0 + per_north * flat.y();
   state.longitude = track_.start.longitude_deg * kRadPerDeg + per_east * flat.x();

@@ -37,8 +37,8 @@ class Navigator {
  public:
   struct Options {
     bool feedback = true;
-    double step = 0.2;         ///< longest time of one prediction of the filter [s]
-    double smooth_time = 600;  ///< in which the smooth solution follows the fused one [s]
+    double step = 0.2;          ///< longest time of one prediction of the filter [s]
+    double smooth_time = 3000;  ///< in which the smooth solution follows the fused one [s]
     Mechanisation::Options imu;
     double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
   };

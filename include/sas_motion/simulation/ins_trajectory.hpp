@@ -31,6 +31,8 @@ struct TruthSample {
   NavigationState state;
   Vector<3> acceleration_nav;  ///< derivative of velocity_nav
   Vector<3> rate_nav_body;     ///< of the body against nav; body [rad/s]
+  double course = 0;           ///< of the track without waves [rad]
+  double turn_rate = 0;        ///< of the course; 0 on a line [rad/s]
 
   /// Of the body against inertial space, and specific force; body. (0.4)
   Vector<3> rateBody() const;
