@@ -14,6 +14,7 @@
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
 #include "sas_motion/models/towfish.hpp"
+#include "sas_motion/navigation/mechanisation.hpp"
 #include "support.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -72,6 +73,14 @@ void expectNoAllocation(const char* name, const SigmaPointFilter<kStates, Count>
   }
   EXPECT_EQ(allocations - before, 0) << name;
   EXPECT_TRUE(belief.mean.allFinite());
+}
+
+TEST(Allocation, MechanisationUsesNoHeap) {
+  Mechanisation ins({}, 0, {});
+  const long before = allocations;
+  for (int k = 1; k <= 100; ++k) ins.step({k * kNanosecondsPerSecond / 100, Vector<3>(0.01, 0, 0.02), Vector<3>(0, 0, 9.8)});
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(ins.stamp(), kNanosecondsPerSecond);
 }
 
 TEST(Allocation, PredictAndUpdateUseNoHeap) {
