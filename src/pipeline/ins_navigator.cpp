@@ -3,6 +3,7 @@
 #include "sas_motion/pipeline/ins_navigator.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sas_motion/filters/conditioning.hpp"
 
@@ -70,7 +71,8 @@ void Navigator<Filter>::advance(const ImuReading& reading, Stamp stamp) {
   C_sum_ += dt * C;
   displace(reckoned_, dt * (velocity_body_ ? Vector<3>(C * *velocity_body_) : state.velocity_nav));
   const Vector<3> fused_step = displacement(before, state) - dt * belief_.mean.template head<3>();
-  displace(smooth_, fused_step + dt / options_.smooth_time * displacement(smooth_, fused()));
+  displace(smooth_, fused_step + dt * lag_ + dt / options_.smooth_position_time * displacement(smooth_, fused()));
+  lag_ *= std::exp(-dt / options_.smooth_velocity_time);
   if (since_ > options_.step - 1e-9 || gap_ > 0) predict();
   if (gap_ > 0) widenForGap(dt);
 }
@@ -92,6 +94,7 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
   const NavigationState& ins = ins_.state();
   const auto update = [&](const auto& z) {
     const auto result = filter_.update(belief_, z);
+    lag_ += (result.belief.mean - belief_.mean).template head<3>();  // the fused velocity jumps by the opposite
     belief_ = result.belief;
     audits_.push_back(auditOf(reading, result));
   };
@@ -128,6 +131,7 @@ NavigationState Navigator<Filter>::smooth() const {
   state.latitude = smooth_.latitude;
   state.longitude = smooth_.longitude;
   state.height = smooth_.height;
+  state.velocity_nav += lag_;
   return state;
 }
 

@@ -37,8 +37,8 @@ class Navigator {
  public:
   struct Options {
     bool feedback = true;
-    double step = 0.2;          ///< longest time of one prediction of the filter [s]
-    double smooth_time = 3000;  ///< in which the smooth solution follows the fused one [s]
+    double step = 0.2;                                              ///< longest time of one prediction of the filter [s]
+    double smooth_velocity_time = 30, smooth_position_time = 3000;  ///< in which the smooth solution follows the fused one [s]
     Mechanisation::Options imu;
     double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
   };
@@ -59,7 +59,8 @@ class Navigator {
   };
   const std::optional<Fix>& gps() const { return gps_; }
   NavigationState dvl() const;
-  /// For imaging: the fused velocity, integrated, so that no fix makes it jump within an aperture. It follows the fused position slowly.
+  /// For imaging: what the INS measures, integrated, which follows the fused velocity and position slowly, so that no fix makes it jump or
+  /// bend within an aperture.
   NavigationState smooth() const;
   const Gaussian<kStates>& belief() const { return belief_; }  ///< errors of the INS as it stands
   const ErrorModel& model() const { return model_; }
@@ -85,6 +86,7 @@ class Navigator {
   Matrix<3> C_sum_ = Matrix<3>::Zero();
   NavigationState reckoned_;  // by the DVL, with its errors
   NavigationState smooth_;
+  Vector<3> lag_ = Vector<3>::Zero();       // velocity of the smooth solution minus the fused one
   std::optional<Vector<3>> velocity_body_;  // of the INS, by the DVL's last reading
   std::optional<Fix> gps_;
 };
