@@ -107,7 +107,8 @@ void Mechanisation::advance(const ImuReading& reading, Stamp stamp) {
   state_.q_nav_body.normalize();
 
   force_nav_ = velocity_nav / dt;
-  rate_body_ = reading.rate_body;
+  const Vector<3> last_rate = last_dt_ > 0 ? Vector<3>(last_angle_ / last_dt_) : reading.rate_body;
+  rate_body_ = reading.rate_body + dt / (dt + last_dt_) * (reading.rate_body - last_rate);  // from the middle of the interval to its end
   last_angle_ = angle;
   last_velocity_ = velocity;
   last_dt_ = dt;

@@ -69,7 +69,8 @@ class Mechanisation {
 
   const NavigationState& state() const { return state_; }
   Stamp stamp() const { return stamp_; }
-  /// Of the last interval: mean specific force, nav [m/s^2], and mean rate of the body against inertial space, body [rad/s].
+  /// Of the last interval: mean specific force, nav [m/s^2], and rate of the body against inertial space at its end, body [rad/s]: half an
+  /// interval of lag would put the waves into the velocity of a lever arm.
   const Vector<3>& force_nav() const { return force_nav_; }
   const Vector<3>& rate_body() const { return rate_body_; }
 
