@@ -58,8 +58,10 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
       suite.campaigns.push_back(makeConstantVelocitySystem(item));
     else if (kind == "usbl")
       suite.campaigns.push_back(makeUsblSystem(item, folder, fitters));
+    else if (kind == "ins_gps_dvl")
+      suite.campaigns.push_back(makeInsSystem(item, folder));
     else
-      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity or usbl", kind));
+      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl or ins_gps_dvl", kind));
     suite.campaigns.back()->title = name;
     suite.campaigns.back()->kind = kind;
     item.finish();

@@ -6,6 +6,7 @@
 #include "sas_motion/campaign/system.hpp"
 #include "sas_motion/campaign/towfish_campaign.hpp"
 #include "sas_motion/evaluation/bounds.hpp"
+#include "sas_motion/simulation/ins_scenario.hpp"
 
 namespace sas_motion {
 
@@ -13,6 +14,7 @@ namespace sas_motion {
 std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::string& folder, const towfish::EstimatorFactory& make);
 std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign);
 std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string& folder, const usbl::FitterFactory& fitters);
+std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder);
 
 /// The bound of each group of states, by its name; empty where one is not known at all.
 template <int N>
@@ -28,6 +30,9 @@ Named<double> boundsOf(const MeanBound<N>& mean, const Named<std::vector<int>>& 
 
 /// The bound of the towfish's groups under a scenario, see System::bound().
 Named<double> towfishBound(const towfish::Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds);
+
+/// The bound of the groups of the fusion of INS, GPS and DVL, see System::bound(); "outage" is the position at the end of each.
+Named<double> insBound(const ins::Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds);
 
 /// How a law is named and plotted.
 LawInfo lawInfo(const std::string& name, const NoiseMix& measurement, const NoiseMix& process);

@@ -9,6 +9,12 @@
 #define SAS_MOTION_INSTANTIATE_UPDATE(Filter, N, M) \
   template Update<Filter<N>::Belief, M> Filter<N>::update<M>(const Filter<N>::Belief&, const LinearMeasurement<N, M>&) const;
 
+// The fusion of INS, GPS and DVL, for the filters that it uses.
+#define SAS_MOTION_INSTANTIATE_INS_UPDATES(Filter) \
+  template class Filter<27>;                       \
+  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 1)     \
+  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 3)
+
 #define SAS_MOTION_INSTANTIATE_UPDATES(Filter) \
   template class Filter<2>;                    \
   template class Filter<6>;                    \

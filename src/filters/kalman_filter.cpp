@@ -37,7 +37,9 @@ Update<Gaussian<N>, M> KalmanFilter<N>::update(const Belief& prior, const Linear
 
 #define SAS_MOTION_INSTANTIATE(N) template Gaussian<N> predictGaussian(const Gaussian<N>&, const Transition<N>&);
 SAS_MOTION_FOR_STATES(SAS_MOTION_INSTANTIATE)
+SAS_MOTION_INSTANTIATE(27)
 #undef SAS_MOTION_INSTANTIATE
 SAS_MOTION_INSTANTIATE_UPDATES(KalmanFilter)
+SAS_MOTION_INSTANTIATE_INS_UPDATES(KalmanFilter)
 
 }  // namespace sas_motion

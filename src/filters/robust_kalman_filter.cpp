@@ -142,5 +142,6 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateBothWeights(const Belief& pr
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(RobustKalmanFilter)
+SAS_MOTION_INSTANTIATE_INS_UPDATES(RobustKalmanFilter)
 
 }  // namespace sas_motion

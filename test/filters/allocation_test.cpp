@@ -15,6 +15,7 @@
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
 #include "sas_motion/models/towfish.hpp"
+#include "sas_motion/navigation/mechanisation.hpp"
 #include "sas_motion/simulation/usbl_simulator.hpp"
 #include "support.hpp"
 
@@ -100,6 +101,14 @@ void expectNoAllocation(const std::string& name, usbl::Mode mode) {
   }
   EXPECT_EQ(allocations - before, 0) << name << ", " << usbl::modeName(mode);
   EXPECT_TRUE(gaussian(belief).mean.allFinite());
+}
+
+TEST(Allocation, MechanisationUsesNoHeap) {
+  Mechanisation ins({}, 0, {});
+  const long before = allocations;
+  for (int k = 1; k <= 100; ++k) ins.step({k * kNanosecondsPerSecond / 100, Vector<3>(0.01, 0, 0.02), Vector<3>(0, 0, 9.8)});
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(ins.stamp(), kNanosecondsPerSecond);
 }
 
 TEST(Allocation, PredictAndUpdateUseNoHeap) {

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sas_motion/filters/linearized.hpp"
+#include "sas_motion/math/angles.hpp"
+#include "sas_motion/math/gaussian.hpp"
+#include "sas_motion/navigation/mechanisation.hpp"
+
+/// Centralised fusion of INS, GPS and DVL by their errors [Qin2012]; numbers as in docs/ins_gps_dvl.md. Errors are computed minus true; C' = (I - [phi x]) C.
+namespace sas_motion::ins {
+
+constexpr int kStates = 27;
+/// Where each group of three begins. Positions are longitude, latitude, height, that is east, north, up.
+enum State {
+  kVelocity = 0,        ///< of the INS; nav
+  kPosition = 3,        ///< of the INS
+  kAttitude = 6,        ///< phi; nav
+  kGyroConstant = 9,    ///< drift; body
+  kGyroMarkov = 12,     ///< drift; body
+  kAccelerometer = 15,  ///< bias; body
+  kGpsPosition = 18,
+  kDvlVelocity = 21,  ///< body
+  kDvlPosition = 24,  ///< dead-reckoned from DVL and attitude
+};
+using Errors = Vector<kStates>;
+using ErrorMatrix = Matrix<kStates>;
+
+constexpr double kDegPerHour = kRadPerDeg / 3600;
+
+/// How wrong the sensors are: constants, first-order Markov processes and white noise. (C.4), its defaults.
+struct Parameters {
+  double gyro_constant = 0.02 * kDegPerHour;           ///< [rad/s]
+  double gyro_markov = 0.01 * kDegPerHour;             ///< [rad/s]
+  double gyro_time = 3600;                             ///< correlation time [s]
+  double angle_random_walk = 0.003 * kRadPerDeg / 60;  ///< [rad/sqrt(s)]
+  double accelerometer_constant = 100e-6 * 9.80665;    ///< [m/s^2]
+  double velocity_random_walk = 10e-6 * 9.80665;       ///< [m/s/sqrt(s)]
+  Vector<3> gps_markov{2, 2, 4};                       ///< [m]
+  double gps_time = 60;                                ///< [s]
+  Vector<3> gps_white{0.5, 0.5, 1};                    ///< [m]
+  double dvl_markov = 0.01;                            ///< [m/s]
+  double dvl_time = 300;                               ///< [s]
+  double dvl_white = 0.01;                             ///< [m/s]
+  double dvl_rate = 5;                                 ///< readings that are dead-reckoned [1/s]
+  double depth_white = 0.1;                            ///< [m]
+  Vector<3> start_position{2, 2, 2};                   ///< [m]
+  double start_velocity = 0.05;                        ///< [m/s]
+  double start_tilt = 0.01 * kRadPerDeg;               ///< [rad]
+  double start_heading = 0.1 * kRadPerDeg;             ///< [rad]
+
+  Vector<3> gps_lever_body = Vector<3>::Zero();    ///< antenna from the INS [m]
+  Vector<3> dvl_lever_body = Vector<3>::Zero();    ///< [m]
+  Vector<3> depth_lever_body = Vector<3>::Zero();  ///< [m]
+};
+
+/// The sensors that aid the INS.
+enum class Sensor { Gps, Dvl, Depth };
+constexpr std::size_t kSensors = 3;
+const char* sensorName(Sensor sensor);
+constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : 3; }
+
+/// What one of the sensors that aid the INS says.
+struct Aiding {
+  Stamp stamp = 0;
+  Sensor sensor = Sensor::Gps;
+  NavigationState fix;                          ///< GPS: position of the antenna; depth: height of the sensor
+  Vector<3> velocity_body = Vector<3>::Zero();  ///< DVL: its velocity over the ground
+};
+
+/// Velocity, position and attitude rows of the INS error dynamics in SI units, (rad, rad, m) for the position. (C.2), with the derivative of
+/// gravity by latitude kept.
+Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_nav);
+
+/// The linear model of the 27 errors. Its units make them alike in size: metres east, north, up at a fixed place, mrad, urad/s, mm/s^2, m/s.
+class ErrorModel {
+ public:
+  ErrorModel(const Parameters& parameters, const NavigationState& start);
+
+  /// Means over one step of time: where the INS is, the force on it and how it lies.
+  struct Motion {
+    NavigationState state;
+    Vector<3> force_nav;
+    Matrix<3> C_nav_body;
+  };
+
+  /// F, (C.5), per second.
+  ErrorMatrix dynamics(const Motion& motion) const;
+  /// Phi = I + F T + F^2 T^2 / 2 and Q_d = T (Phi q Phi^T + q) / 2. (C.4)
+  Transition<kStates> transition(const Motion& motion, double T, const Errors& mean) const;
+  Gaussian<kStates> start() const;
+
+  /// A fix of the antenna: what the INS says of it minus the fix.
+  LinearMeasurement<kStates, 3> gps(const NavigationState& ins, const NavigationState& fix, const Errors& mean) const;
+  /// Velocity over the ground on the DVL's axes; `rate_body` is of the body against inertial space.
+  LinearMeasurement<kStates, 3> dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body, const Errors& mean) const;
+  /// Height of the depth sensor.
+  LinearMeasurement<kStates, 1> depth(const NavigationState& ins, double height, const Errors& mean) const;
+
+  /// Velocity of the INS over the ground from the DVL's reading; body.
+  Vector<3> velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const;
+
+  const Errors& unit() const { return unit_; }  ///< of each state: SI of part C = unit * state
+  const Parameters& parameters() const { return parameters_; }
+  /// East, north, up of a position error in the model's metres, from longitude, latitude, height; and back.
+  Vector<3> metresPerPosition() const { return unit_.segment<3>(kPosition).cwiseInverse(); }
+
+ private:
+  Parameters parameters_;
+  Errors unit_;
+  Errors density_;  // of the white noise that drives each state, in its units squared per second
+};
+
+/// The INS without the errors that are estimated of it.
+NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit);
+
+}  // namespace sas_motion::ins

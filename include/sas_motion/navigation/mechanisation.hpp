@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "sas_motion/math/stamp.hpp"
+#include "sas_motion/math/types.hpp"
+
+namespace sas_motion {
+
+/// Where a body is, how it moves and how it lies. Axes: nav is east, north, up at the body; body is starboard, forward, up.
+struct NavigationState {
+  double latitude = 0, longitude = 0;  ///< [rad]
+  double height = 0;                   ///< above the ellipsoid [m]
+  Vector<3> velocity_nav = Vector<3>::Zero();
+  Eigen::Quaterniond q_nav_body = Eigen::Quaterniond::Identity();
+};
+
+/// `point` from `origin`, both near each other, by the radii at the origin: east, north, up [m].
+Vector<3> displacement(const NavigationState& origin, const NavigationState& point);
+/// Moves the position by metres east, north, up.
+void displace(NavigationState& state, const Vector<3>& metres_nav);
+/// Rotation vector phi of C' = (I - [phi x]) C, from the true attitude to the computed one; nav [rad].
+Vector<3> attitudeError(const Eigen::Quaterniond& computed, const Eigen::Quaterniond& truth);
+
+/// What an inertial unit says of the interval that ends at its stamp: means over it, as units that integrate inside give them.
+struct ImuReading {
+  Stamp stamp = 0;
+  Vector<3> rate_body = Vector<3>::Zero();   ///< of the body against inertial space [rad/s]
+  Vector<3> force_body = Vector<3>::Zero();  ///< specific force [m/s^2]
+};
+
+/// What became of a reading of the inertial unit.
+enum class ImuVerdict {
+  Started,      ///< the first one: it says when the time begins, and nothing else
+  Integrated,   ///< as it came
+  OffRate,      ///< integrated, but sooner or later than the unit's period says, by more than half of it
+  Bridged,      ///< integrated over a gap that the reading says little of
+  OutOfOrder,   ///< not after the last one; left out
+  Implausible,  ///< not finite, or more than the unit can measure; left out
+};
+
+struct ImuStep {
+  ImuVerdict verdict = ImuVerdict::Started;
+  double dt = 0;  ///< integrated over [s]
+};
+
+/// Strapdown mechanisation in the local level frame. Rotation and velocity increments are corrected for coning and sculling from the present
+/// and the last one [Savage1998, I eq 47, II eq 56]. Holds no memory on the heap.
+class Mechanisation {
+ public:
+  struct Options {
+    double period = 0.01;      ///< of the unit [s]
+    double longest_gap = 0.1;  ///< that a reading speaks for [s]
+    double max_rate = 20;      ///< [rad/s]
+    double max_force = 200;    ///< [m/s^2]
+  };
+
+  /// Throws std::invalid_argument where an option is not positive.
+  Mechanisation(const NavigationState& start, Stamp stamp, const Options& options);
+
+  /// What `step` would make of the reading, for callers that stop on the way to its stamp.
+  ImuVerdict judge(const ImuReading& reading) const;
+  /// Integrates up to the reading's stamp, unless the verdict says that it is left out.
+  ImuStep step(const ImuReading& reading);
+  /// Integrates up to `stamp` with the means of a reading that ends there or later, not judged.
+  void advance(const ImuReading& reading, Stamp stamp);
+
+  const NavigationState& state() const { return state_; }
+  Stamp stamp() const { return stamp_; }
+  /// Of the last interval: mean specific force, nav [m/s^2], and rate of the body against inertial space at its end, body [rad/s]: half an
+  /// interval of lag would put the waves into the velocity of a lever arm.
+  const Vector<3>& force_nav() const { return force_nav_; }
+  const Vector<3>& rate_body() const { return rate_body_; }
+
+  /// Feedback: goes on from a better state.
+  void reset(const NavigationState& state) { state_ = state; }
+
+ private:
+  Options options_;
+  NavigationState state_;
+  Stamp stamp_;
+  bool started_ = false;
+  Vector<3> last_angle_ = Vector<3>::Zero(), last_velocity_ = Vector<3>::Zero();  // increments of the interval before
+  double last_dt_ = 0;
+  Vector<3> force_nav_ = Vector<3>::Zero(), rate_body_ = Vector<3>::Zero();
+};
+
+}  // namespace sas_motion

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "sas_motion/filters/kalman_filter.hpp"
+#include "sas_motion/filters/robust_kalman_filter.hpp"
+#include "sas_motion/models/ins_gps_dvl.hpp"
+
+namespace sas_motion::ins {
+
+/// Fuses nothing: what each sensor says alone is what a run with it gives.
+struct Unaided {
+  Gaussian<kStates> predict(const Gaussian<kStates>& belief, const Transition<kStates>&) const { return belief; }
+  template <int M>
+  Update<Gaussian<kStates>, M> update(const Gaussian<kStates>& prior, const LinearMeasurement<kStates, M>& z) const;
+};
+
+/// What became of a reading of a sensor that aids.
+struct Audit {
+  Stamp stamp = 0;
+  Sensor sensor = Sensor::Gps;
+  Verdict verdict = Verdict::Accepted;
+  double nis = 0;
+  Vector<3> weights = Vector<3>::Ones();
+};
+
+/// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of the INS itself (feedback)
+/// or of its output (open loop). (C.4)
+///
+/// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale.
+template <class Filter>
+class Navigator {
+ public:
+  struct Options {
+    bool feedback = true;
+    double step = 0.2;                                              ///< longest time of one prediction of the filter [s]
+    double smooth_velocity_time = 30, smooth_position_time = 3000;  ///< in which the smooth solution follows the fused one [s]
+    Mechanisation::Options imu;
+    double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
+  };
+
+  Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start, Stamp stamp, const Options& options);
+
+  void add(const Aiding& reading) { waiting_.push_back(reading); }
+  /// Returns what became of the reading; audits() then are those of what it let be fused.
+  ImuStep add(const ImuReading& reading);
+  const std::vector<Audit>& audits() const { return audits_; }
+
+  Stamp stamp() const { return ins_.stamp(); }
+  NavigationState fused() const { return corrected(ins_.state(), belief_.mean, model_.unit()); }
+  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors.
+  struct Fix {
+    Stamp stamp = 0;
+    NavigationState state;
+  };
+  const std::optional<Fix>& gps() const { return gps_; }
+  NavigationState dvl() const;
+  /// For imaging: what the INS measures, integrated, which follows the fused velocity and position slowly, so that no fix makes it jump or
+  /// bend within an aperture.
+  NavigationState smooth() const;
+  const Gaussian<kStates>& belief() const { return belief_; }  ///< errors of the INS as it stands
+  const ErrorModel& model() const { return model_; }
+
+ private:
+  void advance(const ImuReading& reading, Stamp stamp);
+  void predict();
+  void fuse(const Aiding& reading);
+  void widenForGap(double part);
+  void feedBack();
+
+  Filter filter_;
+  ErrorModel model_;
+  Options options_;
+  Mechanisation ins_;
+  Gaussian<kStates> belief_;
+  std::deque<Aiding> waiting_;
+  std::vector<Audit> audits_;
+  // Sums over the time that the filter has not predicted yet.
+  double since_ = 0;
+  double gap_ = 0;  // of the reading that is integrated, where it bridges one [s]
+  Vector<3> force_sum_ = Vector<3>::Zero(), velocity_sum_ = Vector<3>::Zero();
+  Matrix<3> C_sum_ = Matrix<3>::Zero();
+  NavigationState reckoned_;  // by the DVL, with its errors
+  NavigationState smooth_;
+  Vector<3> lag_ = Vector<3>::Zero();       // velocity of the smooth solution minus the fused one
+  std::optional<Vector<3>> velocity_body_;  // of the INS, by the DVL's last reading
+  std::optional<Fix> gps_;
+};
+
+using Ckf27 = Navigator<KalmanFilter<kStates>>;
+using RobustCkf27 = Navigator<RobustKalmanFilter<kStates>>;
+
+}  // namespace sas_motion::ins

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sas_motion/config/yaml_section.hpp"
+#include "sas_motion/models/ins_gps_dvl.hpp"
+#include "sas_motion/simulation/ins_trajectory.hpp"
+#include "sas_motion/simulation/noise_law.hpp"
+
+namespace sas_motion::ins {
+
+/// A time without readings: under water there is no GPS.
+struct Outage {
+  double begin = 0, end = 0;  ///< first and last moment without [s]
+};
+
+/// A survey with INS, GPS, DVL and a depth gauge.
+struct Scenario {
+  struct Readings {
+    double rate = 1;  ///< [1/s]
+    NoiseMix noise;   ///< law of the white noise, row by row
+    std::vector<Outage> outages;
+  };
+
+  std::string name;
+  double duration = 1200;  ///< [s]
+  Track track;
+  Parameters parameters;
+  double imu_rate = 100;                                                                                  ///< [1/s]
+  std::array<Readings, kSensors> sensors{Readings{1, {}, {}}, Readings{5, {}, {}}, Readings{1, {}, {}}};  ///< by Sensor
+
+  Readings& sensor(Sensor which) { return sensors[static_cast<std::size_t>(which)]; }
+  const Readings& sensor(Sensor which) const { return sensors[static_cast<std::size_t>(which)]; }
+
+  /// Throws ConfigError.
+  static Scenario fromFile(const std::string& file);
+  static Scenario read(YamlSection yaml);
+  /// The law under `key`; every one but quantised.
+  static NoiseMix readNoise(YamlSection& owner, const std::string& key);
+  /// Outages under `key`: a list of {begin, end}.
+  static std::vector<Outage> readOutages(YamlSection& owner, const std::string& key);
+};
+
+}  // namespace sas_motion::ins

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sas_motion/simulation/ins_scenario.hpp"
+#include "sas_motion/simulation/noise_source.hpp"
+
+namespace sas_motion::ins {
+
+/// A reading with the simulator's labels.
+struct LabelledAiding {
+  Aiding reading;
+  std::array<bool, 3> outlier{};
+  Vector<3> variance = Vector<3>::Ones();  ///< of this draw's white noise, over the good one [-]
+};
+
+/// All that was recorded of one simulated run; stamps are since its start.
+struct Recording {
+  NavigationState start;  ///< what the INS believes when it starts
+  std::vector<ImuReading> imu;
+  std::vector<LabelledAiding> aiding;  ///< in time order
+};
+
+/// The inertial unit along a trajectory without any error.
+std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, double duration);
+
+/// Draws a run: (0.4) with the errors of (C.1), (C.3), (C.4). The same scenario and seed give the same numbers; sensors have streams of their
+/// own.
+Recording simulate(const Scenario& scenario, const Trajectory& trajectory, std::uint64_t seed);
+
+}  // namespace sas_motion::ins

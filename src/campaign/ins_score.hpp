@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <map>
+
+#include "sas_motion/campaign/report.hpp"
+#include "sas_motion/pipeline/ins_navigator.hpp"
+#include "sas_motion/simulation/ins_simulator.hpp"
+
+namespace sas_motion::ins {
+
+/// One answer to score against truth: of the INS, or of a sensor that knows only some of it.
+struct Solution {
+  NavigationState state;
+  bool moving = true;              ///< velocity is known
+  bool lying = true;               ///< attitude is known
+  const ErrorMatrix* P = nullptr;  ///< of the INS, where the solution is its
+};
+
+/// Scores one solution over a run.
+class Score {
+ public:
+  Score(const Scenario& scenario, const Errors& unit, double skip) : scenario_(scenario), unit_(unit), skip_(skip) {}
+
+  void add(double time, const TruthSample& truth, const Solution& solution);
+  void add(const Audit& audit, const LabelledAiding& labelled);
+
+  EstimatorReport report(const std::string& name) const;
+  const Trace& trace() const { return trace_; }
+
+ private:
+  void addConsistency(const Vector<9>& error, const ErrorMatrix& P);
+
+  const Scenario& scenario_;
+  Errors unit_;
+  double skip_;
+  std::map<std::string, std::vector<double>> errors_, nees_;
+  std::array<std::vector<double>, kSensors> nis_;
+  std::vector<double> time_, along_, across_;
+  towfish::Detection detection_;
+  bool finite_ = true;
+  LockOut lock_out_{1};
+  Trace trace_;
+};
+
+}  // namespace sas_motion::ins

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/simulation/ins_scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sas_motion::ins {
+namespace {
+
+constexpr double kMicroG = 9.80665e-6;  // [m/s^2]
+
+void readVector(YamlSection& yaml, const std::string& key, Vector<3>& value, double lower) {
+  std::vector<double> numbers(value.data(), value.data() + 3);
+  yaml.numbers(key, numbers, 3);
+  for (const double number : numbers)
+    if (number < lower) yaml.fail(key, fmt::format("has {} but it must be at least {}", number, lower));
+  std::copy(numbers.begin(), numbers.end(), value.data());
+}
+
+/// A number that the file has in another unit.
+void scaled(YamlSection& yaml, const std::string& key, double& value, double unit, Range range) {
+  double number = value / unit;
+  yaml.number(key, number, range);
+  value = number * unit;
+}
+
+void readWave(YamlSection yaml, Wave& wave, bool angle) {
+  if (angle)
+    yaml.angle("amplitude_deg", wave.amplitude, {0, 45});
+  else
+    yaml.number("amplitude", wave.amplitude, {0, 20});
+  yaml.number("period", wave.period, {0.5, 1e3});
+  yaml.number("phase", wave.phase, {-10, 10});
+  yaml.finish();
+}
+
+void readTrack(YamlSection yaml, Track& track) {
+  yaml.number("speed", track.speed, {0.01, 50});
+  yaml.angle("heading_deg", track.heading, {-360, 360});
+  yaml.number("line_length", track.line_length, {1, 1e6});
+  yaml.angle("turn_rate_deg", track.turn_rate, {0.01, 90});
+  yaml.finish();
+}
+
+void readWaves(YamlSection yaml, Track& track) {
+  readWave(yaml.section("pitch"), track.pitch, true);
+  readWave(yaml.section("roll"), track.roll, true);
+  readWave(yaml.section("yaw"), track.yaw, true);
+  readWave(yaml.section("heave"), track.heave, false);
+  readWave(yaml.section("sway"), track.sway, false);
+  yaml.finish();
+}
+
+void readImu(YamlSection yaml, Scenario& scenario) {
+  Parameters& p = scenario.parameters;
+  yaml.number("rate", scenario.imu_rate, {10, 1e4});
+  scaled(yaml, "gyro_constant_deg_h", p.gyro_constant, kDegPerHour, {kTiny, 1e3});
+  scaled(yaml, "gyro_markov_deg_h", p.gyro_markov, kDegPerHour, {kTiny, 1e3});
+  yaml.number("gyro_time", p.gyro_time, {1, 1e7});
+  scaled(yaml, "angle_random_walk_deg_sqrt_h", p.angle_random_walk, kRadPerDeg / 60, {0, 10});
+  scaled(yaml, "accelerometer_constant_ug", p.accelerometer_constant, kMicroG, {kTiny, 1e5});
+  scaled(yaml, "velocity_random_walk_ug_sqrt_s", p.velocity_random_walk, kMicroG, {0, 1e5});
+  yaml.finish();
+}
+
+void readSensor(YamlSection& yaml, Scenario::Readings& readings, Vector<3>& lever) {
+  yaml.number("rate", readings.rate, {0.001, 1e3});
+  readings.noise = Scenario::readNoise(yaml, "noise");
+  readings.outages = Scenario::readOutages(yaml, "outages");
+  readVector(yaml, "lever_arm", lever, -1e3);
+  yaml.finish();
+}
+
+}  // namespace
+
+NoiseMix Scenario::readNoise(YamlSection& owner, const std::string& key) {
+  NoiseMix mix = NoiseMix::read(owner, key);
+  for (const auto& law : mix.laws)
+    if (law.kind == NoiseLaw::Kind::Quantised) owner.fail(key, "names quantised, which these sensors do not simulate");
+  return mix;
+}
+
+std::vector<Outage> Scenario::readOutages(YamlSection& owner, const std::string& key) {
+  std::vector<Outage> outages;
+  for (auto& item : owner.list(key)) {
+    Outage outage;
+    item.number("begin", outage.begin, {0, 1e7});
+    item.number("end", outage.end, {0, 1e7});
+    if (!(outage.begin < outage.end)) item.fail("end", fmt::format("is {} but must be after begin, which is {}", outage.end, outage.begin));
+    item.finish();
+    outages.push_back(outage);
+  }
+  return outages;
+}
+
+Scenario Scenario::fromFile(const std::string& file) { return read(YamlSection::fromFile(file)); }
+
+Scenario Scenario::read(YamlSection yaml) {
+  Scenario scenario;
+  Parameters& p = scenario.parameters;
+  scenario.name = yaml.file();
+  std::string system = "ins_gps_dvl";
+  yaml.text("system", system);
+  if (system != "ins_gps_dvl") yaml.fail("system", fmt::format("is '{}' but must be ins_gps_dvl", system));
+  yaml.text("name", scenario.name);
+  yaml.number("duration", scenario.duration, {1, 1e6});
+  Geodetic& datum = scenario.track.start;
+  std::vector<double> start{datum.latitude_deg, datum.longitude_deg, datum.altitude};
+  yaml.numbers("start", start, 3);
+  if (std::abs(start[0]) > 85) yaml.fail("start", fmt::format("has latitude {} but it must lie between -85 and 85", start[0]));
+  datum = {start[0], start[1], start[2]};
+  readTrack(yaml.section("track"), scenario.track);
+  readWaves(yaml.section("waves"), scenario.track);
+  readImu(yaml.section("imu"), scenario);
+  auto gps = yaml.section("gps");
+  readVector(gps, "markov", p.gps_markov, kTiny);
+  gps.number("time", p.gps_time, {1, 1e7});
+  readVector(gps, "white", p.gps_white, kTiny);
+  readSensor(gps, scenario.sensor(Sensor::Gps), p.gps_lever_body);
+  auto dvl = yaml.section("dvl");
+  dvl.number("markov", p.dvl_markov, {kTiny, 10});
+  dvl.number("time", p.dvl_time, {1, 1e7});
+  dvl.number("white", p.dvl_white, {kTiny, 10});
+  readSensor(dvl, scenario.sensor(Sensor::Dvl), p.dvl_lever_body);
+  p.dvl_rate = scenario.sensor(Sensor::Dvl).rate;
+  auto depth = yaml.section("depth");
+  depth.number("white", p.depth_white, {kTiny, 1e3});
+  readSensor(depth, scenario.sensor(Sensor::Depth), p.depth_lever_body);
+  auto begin = yaml.section("initial");
+  readVector(begin, "position", p.start_position, kTiny);
+  begin.number("velocity", p.start_velocity, {kTiny, 100});
+  begin.angle("tilt_deg", p.start_tilt, {kTiny, 10});
+  begin.angle("heading_deg", p.start_heading, {kTiny, 10});
+  begin.finish();
+  yaml.finish();
+  return scenario;
+}
+
+}  // namespace sas_motion::ins

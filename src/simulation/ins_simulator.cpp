@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/simulation/ins_simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sas_motion/math/random.hpp"
+#include "sas_motion/navigation/earth.hpp"
+
+namespace sas_motion::ins {
+namespace {
+
+constexpr std::uint64_t kStartStream = 1, kImuStream = 2, kMarkovStream = 10, kRowStream = 20, kSpellStream = 40;
+
+Vector<3> gaussians(Random& random) {
+  const double x = random.gaussian(), y = random.gaussian();
+  return {x, y, random.gaussian()};
+}
+
+/// Three independent first-order Gauss-Markov processes of variance 1. (0.5)
+class Markov {
+ public:
+  explicit Markov(Random& random) : value_(gaussians(random)) {}
+  const Vector<3>& step(double T, double time_constant, Random& random) {
+    const double decay = std::exp(-T / time_constant);
+    return value_ = decay * value_ + std::sqrt(1 - decay * decay) * gaussians(random);
+  }
+
+ private:
+  Vector<3> value_;
+};
+
+NavigationState wrongStart(const NavigationState& truth, const Parameters& p, std::uint64_t seed) {
+  Random random(seed, kStartStream);
+  NavigationState start = truth;
+  displace(start, p.start_position.cwiseProduct(gaussians(random)));
+  start.velocity_nav += p.start_velocity * gaussians(random);
+  const Vector<3> phi = Vector<3>(p.start_tilt, p.start_tilt, p.start_heading).cwiseProduct(gaussians(random));
+  start.q_nav_body = Eigen::Quaterniond(Eigen::AngleAxisd(-phi.norm(), phi.normalized())) * truth.q_nav_body;
+  return start;
+}
+
+void addImuErrors(std::vector<ImuReading>& readings, const Parameters& p, std::uint64_t seed) {
+  Random random(seed, kImuStream);
+  const Vector<3> gyro_constant = p.gyro_constant * gaussians(random), bias = p.accelerometer_constant * gaussians(random);
+  Markov drift(random);
+  for (std::size_t k = 1; k < readings.size(); ++k) {
+    const double T = secondsBetween(readings[k - 1].stamp, readings[k].stamp);
+    readings[k].rate_body += gyro_constant + p.gyro_markov * drift.step(T, p.gyro_time, random) + p.angle_random_walk / std::sqrt(T) * gaussians(random);
+    readings[k].force_body += bias + p.velocity_random_walk / std::sqrt(T) * gaussians(random);
+  }
+}
+
+/// One of the sensors that aid, with what it remembers.
+class AidingSource {
+ public:
+  AidingSource(const Scenario& scenario, Sensor sensor, std::uint64_t seed)
+      : parameters_(scenario.parameters),
+        readings_(scenario.sensor(sensor)),
+        sensor_(sensor),
+        random_(seed, kMarkovStream + static_cast<std::uint64_t>(sensor)),
+        markov_(random_) {
+    const auto first = kRowStream + 4 * static_cast<std::uint64_t>(sensor);
+    for (int row = 0; row < rowsOf(sensor); ++row)
+      rows_.emplace_back(readings_.noise, seed, first + static_cast<std::uint64_t>(row), kSpellStream + static_cast<std::uint64_t>(sensor));
+  }
+
+  /// Appends the reading at a time, unless there is none.
+  void read(double time, const TruthSample& truth, std::vector<LabelledAiding>& all) {
+    LabelledAiding labelled;
+    Vector<3> noise = Vector<3>::Zero();
+    bool missing = false, frozen = false;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const NoiseSample sample = rows_[row].draw(time);
+      const auto axis = static_cast<Eigen::Index>(row);
+      noise(axis) = sample.value;
+      labelled.outlier[row] = sample.outlier;
+      labelled.variance(axis) = sample.variance;
+      missing |= sample.missing;
+      frozen |= sample.frozen;
+    }
+    const double T = 1 / readings_.rate;
+    Aiding& reading = labelled.reading;
+    switch (sensor_) {
+      case Sensor::Gps:
+        reading = gps(truth, parameters_.gps_markov.cwiseProduct(markov_.step(T, parameters_.gps_time, random_)) + parameters_.gps_white.cwiseProduct(noise));
+        break;
+      case Sensor::Dvl: reading = dvl(truth, parameters_.dvl_markov * markov_.step(T, parameters_.dvl_time, random_) + parameters_.dvl_white * noise); break;
+      case Sensor::Depth: reading = depth(truth, parameters_.depth_white * noise(0)); break;
+    }
+    if (frozen && last_) reading = *last_;
+    reading.stamp = stampFromSeconds(time);
+    reading.sensor = sensor_;
+    last_ = reading;
+    const auto in = [&](const Outage& outage) { return time >= outage.begin && time <= outage.end; };
+    if (!missing && std::none_of(readings_.outages.begin(), readings_.outages.end(), in)) all.push_back(labelled);
+  }
+
+ private:
+  Aiding gps(const TruthSample& truth, const Vector<3>& error) const {
+    Aiding reading;
+    reading.fix = truth.state;
+    displace(reading.fix, truth.state.q_nav_body * parameters_.gps_lever_body + error);
+    return reading;
+  }
+  Aiding dvl(const TruthSample& truth, const Vector<3>& error) const {
+    const auto& state = truth.state;
+    const Vector<3> rate = truth.rateBody() - state.q_nav_body.conjugate() * earth::rotationRate(state.latitude);
+    Aiding reading;
+    reading.velocity_body = state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(parameters_.dvl_lever_body) + error;
+    return reading;
+  }
+  Aiding depth(const TruthSample& truth, double error) const {
+    Aiding reading;
+    reading.fix = truth.state;
+    reading.fix.height += (truth.state.q_nav_body * parameters_.depth_lever_body).z() + error;
+    return reading;
+  }
+
+  const Parameters& parameters_;
+  const Scenario::Readings& readings_;
+  Sensor sensor_;
+  Random random_;
+  Markov markov_;
+  std::vector<NoiseSource> rows_;
+  std::optional<Aiding> last_;
+};
+
+}  // namespace
+
+std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, double duration) {
+  std::vector<ImuReading> readings{{}};  // the first only says when the time begins
+  for (long k = 1; static_cast<double>(k) / rate <= duration + 1e-9; ++k)
+    readings.push_back(trajectory.imu(static_cast<double>(k - 1) / rate, static_cast<double>(k) / rate));
+  return readings;
+}
+
+Recording simulate(const Scenario& scenario, const Trajectory& trajectory, std::uint64_t seed) {
+  Recording run;
+  run.start = wrongStart(trajectory.at(0).state, scenario.parameters, seed);
+  run.imu = perfectImu(trajectory, scenario.imu_rate, scenario.duration);
+  addImuErrors(run.imu, scenario.parameters, seed);
+  for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth}) {
+    AidingSource source(scenario, sensor, seed);
+    const double rate = scenario.sensor(sensor).rate;
+    for (long k = 1; static_cast<double>(k) / rate <= scenario.duration + 1e-9; ++k)
+      source.read(static_cast<double>(k) / rate, trajectory.at(static_cast<double>(k) / rate), run.aiding);
+  }
+  std::stable_sort(run.aiding.begin(), run.aiding.end(), [](const LabelledAiding& a, const LabelledAiding& b) { return a.reading.stamp < b.reading.stamp; });
+  return run;
+}
+
+}  // namespace sas_motion::ins

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "campaign/suites.hpp"
+#include "sas_motion/simulation/ins_scenario.hpp"
+
+namespace sas_motion {
+namespace {
+
+using testing::rmse;
+using testing::runAll;
+using testing::suiteOf;
+
+std::string insSuite(double duration, int runs, const std::string& estimators, const std::string& laws) {
+  return "{runs: " + std::to_string(runs) +
+         ", campaigns: [{name: ins, system: ins_gps_dvl, scenario: " SAS_MOTION_SOURCE_DIR "/config/scenarios/ins/survey.yaml, duration: " +
+         std::to_string(duration) + ", skip: 60, estimators: " + estimators + ", laws: " + laws + "}]}";
+}
+
+TEST(InsSystem, FusionBeatsItsSensorsAndTheRobustFormOutliers) {
+  const auto suite =
+      suiteOf(insSuite(300, 4, "[gps, dvl, ckf27, robust_ckf27]", "[{name: clean}, {name: bad, noise: {law: contaminated, epsilon: 0.1, K: 30}}]"));
+  const auto runs = runAll(suite);
+  for (const char* sensor : {"gps", "dvl"}) EXPECT_LT(rmse(suite, runs, "clean", "ckf27"), rmse(suite, runs, "clean", sensor)) << sensor;
+  EXPECT_LT(rmse(suite, runs, "bad", "robust_ckf27"), 1.15 * rmse(suite, runs, "clean", "robust_ckf27"));
+  EXPECT_GT(rmse(suite, runs, "bad", "ckf27"), 1.3 * rmse(suite, runs, "bad", "robust_ckf27"));
+}
+
+TEST(InsSystem, TheBoundIsWhatTheFilterReachesOnGaussianNoise) {
+  const auto suite = suiteOf(insSuite(200, 16, "[ckf27]", "[{name: clean, gps_outages: [{begin: 120, end: 180}]}]"));
+  const auto runs = runAll(suite);
+  for (const auto& [group, bound] : suite.campaigns[0]->bound(0, {1})) {
+    std::vector<double> errors;
+    for (const auto& reports : runs)
+      for (const auto& [name, error] : reports.front().errors)
+        if (name == group) errors.push_back(error.rmse);
+    ASSERT_EQ(errors.size(), runs.size()) << group;
+    EXPECT_GT(rootMeanSquare(errors), 0.75 * bound) << group;  // of 16 runs, each with few independent errors
+    EXPECT_LT(rootMeanSquare(errors), 1.35 * bound) << group;
+  }
+}
+
+TEST(InsSystem, SaysWhatIsWrong) {
+  const auto refused = [](const std::string& text, const std::string& word) {
+    try {
+      suiteOf(text);
+      ADD_FAILURE() << text;
+    } catch (const ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  refused(insSuite(200, 1, "[ckf28]", "[{name: clean}]"), "ckf28");
+  refused(insSuite(200, 1, "[ckf27]", "[]"), "laws");
+  refused(insSuite(50, 1, "[ckf27]", "[{name: clean}]"), "skip");
+  refused(insSuite(200, 1, "[ckf27]", "[{name: clean, gps_outages: [{begin: 20, end: 10}]}]"), "end");
+  refused(insSuite(200, 1, "[ckf27]", "[{name: clean, noise: {law: quantised, quantum: 1}}]"), "quantised");
+}
+
+TEST(InsScenario, ReadsItsFileAndRefusesWhatItDoesNotKnow) {
+  const auto scenario = ins::Scenario::fromFile(SAS_MOTION_SOURCE_DIR "/config/scenarios/ins/survey.yaml");
+  EXPECT_DOUBLE_EQ(scenario.parameters.gyro_constant, 0.02 * ins::kDegPerHour);
+  EXPECT_DOUBLE_EQ(scenario.track.roll.amplitude, 3 * kRadPerDeg);
+  EXPECT_EQ(scenario.parameters.dvl_lever_body, Vector<3>(0.3, 2, -0.5));
+  const auto refused = [](const std::string& text) { EXPECT_THROW(ins::Scenario::read(YamlSection::fromText(text, "test")), ConfigError) << text; };
+  refused("{system: usbl}");
+  refused("{gps: {sigma: 2}}");
+  refused("{gps: {white: [0, 1, 1]}}");
+  refused("{imu: {rate: 1}}");
+  refused("{start: [89, 0, 0]}");
+  refused("{waves: {roll: {amplitude: 1}}}");
+}
+
+}  // namespace
+}  // namespace sas_motion
