@@ -6,7 +6,7 @@ from html import escape
 from string import Template
 
 from sas_motion_report import ReportError
-from sas_motion_report.assets import asset, data_text, packed_plotly
+from sas_motion_report.assets import asset, page
 from sas_motion_report.report import figure, section
 
 from .inputs import REMEDY
@@ -30,12 +30,12 @@ def render(calibration):
         parts = {'bag': escape(calibration['bag']), 'facts': escape(facts(calibration)), 'lead': escape(lead(calibration)), 'trust': '' if calibration['trusted'] else 'bad',
                  'more': ''.join(f'<li>{escape(sentence)}</li>' for sentence in sentences(calibration)), 'results': results(calibration, drawn),
                  'choices': ''.join(f'<option>{escape(name)}</option>' for name in order),
-                 'plots': ''.join(section(f'section-{name}', title, figure(name, caption)) for name, title, caption in PLOTS),
-                 'data': data_text({**calibration, 'order': drawn, 'titles': TITLES, 'duration': calibration['pings']['t'][-1]})}
+                 'plots': ''.join(section(f'section-{name}', title, figure(name, caption)) for name, title, caption in PLOTS)}
+        data = {**calibration, 'order': drawn, 'titles': TITLES, 'duration': calibration['pings']['t'][-1]}
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         raise ReportError(f'the calibration lacks or mistypes {error}; {REMEDY}') from None
-    parts.update(style=asset('style.css'), script=asset('plotting.js') + asset('figures.js', HERE) + asset('page.js', HERE), plotly=packed_plotly())
-    return Template(asset('template.html', HERE)).substitute(parts)
+    script = asset('plotting.js') + asset('figures.js', HERE) + asset('page.js', HERE)
+    return page(f'{parts["bag"]}: USBL calibration', Template(asset('body.html', HERE)).substitute(parts), data, asset('style.css'), script)
 
 
 def facts(calibration):
