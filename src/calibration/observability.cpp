@@ -30,7 +30,7 @@ std::string list(std::vector<std::string> names) {
 
 /// The unknowns with a noticeable share in the weak direction, the largest first.
 std::string weakUnknowns(const Observability& result) {
-  std::vector<std::size_t> order(result.unknowns.size());
+  std::vector<std::size_t> order(result.weak_direction.size());
   std::iota(order.begin(), order.end(), 0);
   const auto share = [&](std::size_t i) { return std::abs(result.weak_direction[i]); };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
@@ -63,9 +63,9 @@ Matrix<kStates> knownOfMounting(const Matrix<kUnknowns>& data, const Prior& prio
 Observability observability(const Matrix<kUnknowns>& data, const Prior& prior, std::size_t pings) {
   Observability result;
   result.pings = pings;
-  for (int i = 0; i < kStates; ++i)
+  for (int i = 0; i < kUnknowns; ++i)
     if (prior.estimated[static_cast<std::size_t>(i)]) result.unknowns.push_back(i);
-  const auto n = static_cast<Eigen::Index>(result.unknowns.size());
+  const auto n = static_cast<Eigen::Index>(std::count(prior.estimated.begin(), prior.estimated.begin() + kStates, true));
   result.bound = covarianceFrom(data, prior).diagonal().cwiseSqrt();
   if (n == 0) return result;
   const Matrix<kStates> known = knownOfMounting(data, prior);

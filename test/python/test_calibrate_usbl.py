@@ -117,11 +117,14 @@ def test_a_sound_speed_is_estimated_by_batch(bag, tmp_path):
     assert abs(batch["range_scale"]) < 4 * batch["range_scale_sigma"] < 0.002
 
 
-def test_a_transponders_depth_cannot_be_told_from_the_vertical_lever_arm(bag, tmp_path):
+def test_the_doubt_of_a_transponders_depth_is_that_of_the_vertical_lever_arm(bag, tmp_path):
+    sure, _ = calibrate(bag, tmp_path / "sure.yaml")
     config = toolbox.write_yaml(tmp_path / "usbl.yaml", {"estimate": {"transponder": True}})
-    document, _ = calibrate(bag, tmp_path / "c.yaml", "--config", config, status=NOT_TRUSTED)
-    assert "transponder's depth and vertical lever arm" in document["verdict"]
+    document, _ = calibrate(bag, tmp_path / "c.yaml", "--config", config)
+    assert document["estimator"] == "batch"
     batch = document["estimators"]["batch"]
+    assert batch["lever_arm_sigma"][2] > 3 * sure["estimators"]["batch"]["lever_arm_sigma"][2]
+    assert 0.9 * batch["transponder_sigma"][2] < batch["lever_arm_sigma"][2] < 0.12  # 0.1 m is what the survey claims
     assert all(abs(value) < 4 * sigma for value, sigma in zip(batch["transponder"], batch["transponder_sigma"]))
 
 def test_a_centred_circle_is_refused_confidence(tmp_path):

@@ -5,7 +5,7 @@ import pytest
 import rosbag
 import toolbox
 
-ALL = ["simulate", "reprocess", "sas_motion_metrics", "benchmark", "nmea_to_bag", "evaluate.py", "calibrate_usbl", "calibration_report.py", "plan_track", "focus"]
+ALL = ["simulate", "reprocess", "sas_motion_metrics", "benchmark", "nmea_to_bag", "evaluate.py", "calibrate_usbl", "calibration_report.py", "focus"]
 
 
 def suite(campaign=None, **changes):

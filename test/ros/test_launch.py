@@ -16,9 +16,11 @@ from sensor_msgs.msg import NavSatFix
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
 
-ARGUMENTS = {"vessel": [], "compare": ["bag:=a.bag", "output:=b.bag"], "reprocess": ["bag:=a.bag", "output:=out"], "view": []}
+ARGUMENTS = {"vessel": [], "compare": ["bag:=a.bag", "output:=b.bag"], "reprocess": ["bag:=a.bag", "output:=out"], "view": [],
+             "usbl_calibration": ["bag:=a.bag"]}
 NODES = {"vessel": {"/sas_motion_manager", "/filters", "/smoother"}, "compare": {"/manager", "/filters", "/smoother", "/recorder", "/session"},
-         "reprocess": {"/reprocess"}, "view": {"/view_markers", "/rviz"}}
+         "reprocess": {"/reprocess"}, "view": {"/view_markers", "/rviz"},
+         "usbl_calibration": {"/usbl_calibration", "/player"}}
 
 
 def roslaunch(*arguments):

@@ -11,7 +11,7 @@ namespace sas_motion::usbl {
 /// What a track can tell of the unknowns, before any estimate is trusted.
 struct Observability {
   std::size_t pings = 0;
-  std::vector<int> unknowns;             ///< of mounting and lever arm, that are estimated, in the order of the vectors below
+  std::vector<int> unknowns;             ///< that are estimated; mounting and lever arm, which the vectors below are of, come first
   std::vector<double> singular_values;   ///< of the pings' information in units of the prior's standard deviations, largest first [-]
   std::vector<double> weak_direction;    ///< where it is least, each part over what it would be known to if the others were known; of unit length
   double weak_sigma = 0;                 ///< what the pings alone know of it, over what the prior does; infinite for nothing [-]
