@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Running nodelets are told what to do: ~set_state, ~enable_sensor, dynamic_reconfigure. Each counts from the next measurement on."""
 import math
+import time
 
 import dynamic_reconfigure.client
 import pytest
@@ -50,7 +51,16 @@ def feed(sensors, filters, found, name="kf"):
     before, last = len(filters.odometry[name]), max(message.header.stamp for _, message in found)
     sensors.feed(found)
     wait_until(lambda: any(m.header.stamp == last for m in filters.odometry[name][before:]), f"the last {name}/odometry")
+    quiet(filters.odometry[name])
     return filters.odometry[name][before:]
+
+
+def quiet(heard, seconds=0.5):
+    """Waits until nothing more comes: topics overtake one another, and an older measurement changes the newest answer."""
+    count = -1
+    while count != len(heard):
+        count = len(heard)
+        time.sleep(seconds)
 
 
 def test_set_state(sensors, filters, survey_messages):
