@@ -44,6 +44,14 @@ def measurements(bag, seconds=1e9):
     return [(topic, message) for topic, message in found if (message.header.stamp - begin).to_sec() < seconds]
 
 
+def quiet(heard, seconds=0.5):
+    """Waits until nothing more comes: topics overtake one another, and an older measurement changes the newest answer."""
+    count = -1
+    while count != len(heard):
+        count = len(heard)
+        time.sleep(seconds)
+
+
 class Nodelet:
     """A nodelet in a process of its own, and all that it has said so far."""
 

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Running nodelets are told what to do: ~set_state, ~enable_sensor, dynamic_reconfigure. Each counts from the next measurement on."""
 import math
-import time
 
 import dynamic_reconfigure.client
 import pytest
 import rospy
 import toolbox
-from live import PATIENT, measurements, nodelet, transforms_of
+from live import PATIENT, measurements, nodelet, quiet, transforms_of
 from ros_session import wait_until
 from sas_motion.srv import EnableSensor, GetStateAt, SetState
 from std_srvs.srv import Trigger
@@ -53,14 +52,6 @@ def feed(sensors, filters, found, name="kf"):
     wait_until(lambda: any(m.header.stamp == last for m in filters.odometry[name][before:]), f"the last {name}/odometry")
     quiet(filters.odometry[name])
     return filters.odometry[name][before:]
-
-
-def quiet(heard, seconds=0.5):
-    """Waits until nothing more comes: topics overtake one another, and an older measurement changes the newest answer."""
-    count = -1
-    while count != len(heard):
-        count = len(heard)
-        time.sleep(seconds)
 
 
 def test_set_state(sensors, filters, survey_messages):

@@ -6,7 +6,7 @@ import math
 import pytest
 import rospy
 import toolbox
-from live import PATIENT, measurements, nodelet, transforms_of
+from live import PATIENT, measurements, nodelet, quiet, transforms_of
 from ros_session import wait_until
 from sas_motion.srv import GetStateAt, SetDatum
 from std_srvs.srv import Trigger
@@ -25,6 +25,7 @@ def feed_to_the_end(sensors, filters, found, name="kf"):
     before = len(filters.odometry[name])
     sensors.feed(found)
     wait_until(lambda: any(m.header.stamp == last for m in filters.odometry[name][before:]), f"the last {name}/odometry")
+    quiet(filters.odometry[name])
     return [m for m in filters.odometry[name][before:] if m.header.stamp == last][-1]
 
 
