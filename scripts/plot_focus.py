@@ -110,7 +110,7 @@ def draw_cuts(plots, pictures, reference, floor):
 
 
 def draw_comparison(summary, pictures, floor, output):
-    """Writes the figure under a temporary name and renames it."""
+    """Writes the figure."""
     rows = math.ceil(len(pictures) / COLUMNS)
     figure = pyplot.figure(figsize=(14, 4 * rows + 4), layout='constrained')
     upper, lower = figure.subfigures(2, 1, height_ratios=[rows, 1.1])
@@ -120,9 +120,7 @@ def draw_comparison(summary, pictures, floor, output):
     window = summary['window']
     figure.suptitle('{}: aperture of {:.1f} m from {:.1f} s, λ = {:.4g} m; RMS error of the paths'.format(
         os.path.basename(summary['bag']), window['length'], window['start'], summary['wavelength']), fontsize='medium')
-    temporary = f'{output}.{os.getpid()}.part'
-    figure.savefig(temporary, format='png', dpi=110)
-    os.replace(temporary, output)
+    plot_image.save(figure, output, dpi=110)
 
 
 def main():

@@ -56,15 +56,20 @@ def extent(axes):
 
 
 def draw(pixels, axes, floor, output):
-    """Writes the picture under a temporary name and renames it."""
+    """Writes the picture."""
     figure, plot = pyplot.subplots(figsize=(8, 6), layout='constrained')
     shown = plot.imshow(decibels(pixels, floor), extent=extent(axes), origin='lower', cmap='inferno', vmin=floor, vmax=0, aspect='equal')
     plot.set_xlabel('along track [m]')
     plot.set_ylabel('ground range [m]')
     plot.set_title('from ({:.2f}, {:.2f}, {:.2f}) m'.format(*axes['origin']), fontsize='medium')
     figure.colorbar(shown, label='power under the peak [dB]')
+    save(figure, output, dpi=150)
+
+
+def save(figure, output, dpi):
+    """Writes a figure under a temporary name and renames it."""
     temporary = f'{output}.{os.getpid()}.part'
-    figure.savefig(temporary, format='png', dpi=150)
+    figure.savefig(temporary, format='png', dpi=dpi)
     os.replace(temporary, output)
 
 

@@ -17,19 +17,4 @@ function draw() {
   return Promise.all(Object.keys(figures).map(name => drawOne(name, theme))).then(() => { document.documentElement.dataset.drawn = chooser.value; });
 }
 
-function drawForPaper(paper) {
-  document.documentElement.toggleAttribute('data-print', paper);
-  draw().then(() => paper || document.querySelectorAll('.plot.js-plotly-plot').forEach(place => Plotly.Plots.resize(place)));
-}
-
-async function start() {
-  try {
-    await unpackPlotly();
-    await draw();
-  } catch (error) {
-    return tellProblem(error);
-  }
-  redrawOnChange([chooser], draw, drawForPaper);
-}
-
-start();
+startDrawing([chooser], draw);

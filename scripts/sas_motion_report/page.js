@@ -30,19 +30,4 @@ function draw() {
   return Promise.all(drawn).then(() => { document.documentElement.dataset.drawn = chooser.value; });
 }
 
-function drawForPaper(paper) {
-  document.documentElement.toggleAttribute('data-print', paper);
-  draw().then(() => paper || document.querySelectorAll('.plot.js-plotly-plot').forEach(place => Plotly.Plots.resize(place)));
-}
-
-async function start() {
-  try {
-    await unpackPlotly();
-    await draw();
-  } catch (error) {
-    return tellProblem(error);
-  }
-  redrawOnChange([chooser], draw, drawForPaper);
-}
-
-if (data.order.length) start();
+if (data.order.length) startDrawing([chooser], draw);

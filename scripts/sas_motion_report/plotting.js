@@ -63,10 +63,23 @@ function tellProblem(error) {
   problem.hidden = false;
 }
 
-/** Draws again when a chooser, the colours, the width or the paper changes. */
-function redrawOnChange(choosers, draw, drawForPaper) {
+/** Draws for paper, whose width is fixed, or for the screen again. */
+function drawForPaper(paper, draw) {
+  document.documentElement.toggleAttribute('data-print', paper);
+  draw().then(() => paper || document.querySelectorAll('.plot.js-plotly-plot').forEach(place => place.hidden || Plotly.Plots.resize(place)));
+}
+
+/** Draws for the first time, and then when a chooser, the colours, the width or the paper changes; `prepare` comes before the first time. */
+async function startDrawing(choosers, draw, prepare = async () => {}) {
+  try {
+    await unpackPlotly();
+    await prepare();
+    await draw();
+  } catch (error) {
+    return tellProblem(error);
+  }
   choosers.forEach(chooser => chooser.addEventListener('change', draw));
   ['(prefers-color-scheme: dark)', '(max-width: 639px)'].forEach(query => matchMedia(query).addEventListener('change', draw));
-  addEventListener('beforeprint', () => drawForPaper(true));
-  addEventListener('afterprint', () => drawForPaper(false));
+  addEventListener('beforeprint', () => drawForPaper(true, draw));
+  addEventListener('afterprint', () => drawForPaper(false, draw));
 }

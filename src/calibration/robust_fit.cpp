@@ -40,17 +40,15 @@ struct NormalEquations {
 };
 
 /// The scale of each channel that its residuals at x show.
-Vector<kChannels> scaleAt(Problem problem, const Unknowns& x) {
-  const Vector<kChannels> stated = problem.scale;
-  problem.scale.setOnes();
+Vector<kChannels> scaleAt(const Problem& problem, const Unknowns& x) {
   std::array<std::vector<double>, kChannels> residuals;
   for (const auto& ping : problem.pings) {
-    const Vector<kChannels> residual = normalisedResidual(problem, ping, x);
+    const Vector<kChannels> residual = normalisedResidual(problem, ping, x).cwiseProduct(problem.scale);
     for (int i = 0; i < kChannels; ++i)
       if (ping.reading.has(i)) residuals[static_cast<std::size_t>(i)].push_back(std::abs(residual(i)));
   }
   const auto unknowns = static_cast<double>(std::count(problem.prior.estimated.begin(), problem.prior.estimated.end(), true));
-  Vector<kChannels> scale = stated;
+  Vector<kChannels> scale = problem.scale;
   for (int i = 0; i < kChannels; ++i) {
     const auto& all = residuals[static_cast<std::size_t>(i)];
     const double count = static_cast<double>(all.size()), spent = unknowns / kChannels;  // the fit takes its share of freedom

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "sas_motion/config/sonar_config.hpp"
+#include "sas_motion/config/yaml_vector.hpp"
 
 namespace sas_motion::imaging {
 namespace {
@@ -57,9 +58,7 @@ void readTargets(YamlSection& yaml, FocusSettings& settings) {
 void readBlock(YamlSection yaml, SpeckleSettings& speckle) {
   yaml.number("along", speckle.block_along, {-1e3, 1e3});
   yaml.number("range", speckle.block_range, {-1e3, 1e3});
-  std::vector<double> size(speckle.block_size.data(), speckle.block_size.data() + 3);
-  yaml.numbers("size", size, 3);
-  speckle.block_size = Eigen::Map<const Eigen::Vector3d>(size.data());
+  readVector<3>(yaml, "size", speckle.block_size);
   if (!(speckle.block_size.minCoeff() > 0)) yaml.fail("size", "must be three numbers above 0");
   yaml.finish();
 }

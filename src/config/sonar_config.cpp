@@ -4,14 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "sas_motion/config/yaml_vector.hpp"
+
 namespace sas_motion::imaging {
 namespace {
-
-void readArm(YamlSection& yaml, const std::string& key, Eigen::Vector3d& arm) {
-  std::vector<double> values(arm.data(), arm.data() + 3);
-  yaml.numbers(key, values, 3);
-  arm = Eigen::Map<const Eigen::Vector3d>(values.data());
-}
 
 void readSignal(YamlSection& yaml, SonarDescription& sonar) {
   yaml.number("carrier", sonar.carrier, {1e3, 1e7});
@@ -31,8 +27,8 @@ void readArray(YamlSection& yaml, SonarDescription& sonar) {
   if (sonar.receivers > 1 && sonar.spacing > sonar.element)
     yaml.fail("spacing",
               fmt::format("is {} but must be at most element, which is {}: the array itself would undersample the aperture", sonar.spacing, sonar.element));
-  readArm(yaml, "transmitter_body", sonar.transmitter_body);
-  readArm(yaml, "receiver_array_body", sonar.receiver_array_body);
+  readVector<3>(yaml, "transmitter_body", sonar.transmitter_body);
+  readVector<3>(yaml, "receiver_array_body", sonar.receiver_array_body);
 }
 
 void checkPingRate(const YamlSection& yaml, const SonarDescription& sonar) {

@@ -7,18 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sas_motion/config/yaml_vector.hpp"
+
 namespace sas_motion::ins {
 namespace {
 
 constexpr double kMicroG = 9.80665e-6;  // [m/s^2]
-
-void readVector(YamlSection& yaml, const std::string& key, Vector<3>& value, double lower) {
-  std::vector<double> numbers(value.data(), value.data() + 3);
-  yaml.numbers(key, numbers, 3);
-  for (const double number : numbers)
-    if (number < lower) yaml.fail(key, fmt::format("has {} but it must be at least {}", number, lower));
-  std::copy(numbers.begin(), numbers.end(), value.data());
-}
 
 /// A number that the file has in another unit.
 void scaled(YamlSection& yaml, const std::string& key, double& value, double unit, Range range) {
@@ -70,7 +64,7 @@ void readSensor(YamlSection& yaml, Scenario::Readings& readings, Vector<3>& leve
   yaml.number("rate", readings.rate, {0.001, 1e3});
   readings.noise = Scenario::readNoise(yaml, "noise");
   readings.outages = Scenario::readOutages(yaml, "outages");
-  readVector(yaml, "lever_arm", lever, -1e3);
+  readVector<3>(yaml, "lever_arm", lever, -1e3);
   yaml.finish();
 }
 
@@ -107,18 +101,14 @@ Scenario Scenario::read(YamlSection yaml) {
   if (system != "ins_gps_dvl") yaml.fail("system", fmt::format("is '{}' but must be ins_gps_dvl", system));
   yaml.text("name", scenario.name);
   yaml.number("duration", scenario.duration, {1, 1e6});
-  Geodetic& datum = scenario.track.start;
-  std::vector<double> start{datum.latitude_deg, datum.longitude_deg, datum.altitude};
-  yaml.numbers("start", start, 3);
-  if (std::abs(start[0]) > 85) yaml.fail("start", fmt::format("has latitude {} but it must lie between -85 and 85", start[0]));
-  datum = {start[0], start[1], start[2]};
+  readGeodetic(yaml, "start", scenario.track.start, 85);
   readTrack(yaml.section("track"), scenario.track);
   readWaves(yaml.section("waves"), scenario.track);
   readImu(yaml.section("imu"), scenario);
   auto gps = yaml.section("gps");
-  readVector(gps, "markov", p.gps_markov, kTiny);
+  readVector<3>(gps, "markov", p.gps_markov, kTiny);
   gps.number("time", p.gps_time, {1, 1e7});
-  readVector(gps, "white", p.gps_white, kTiny);
+  readVector<3>(gps, "white", p.gps_white, kTiny);
   readSensor(gps, scenario.sensor(Sensor::Gps), p.gps_lever_body);
   auto dvl = yaml.section("dvl");
   dvl.number("markov", p.dvl_markov, {kTiny, 10});
@@ -130,7 +120,7 @@ Scenario Scenario::read(YamlSection yaml) {
   depth.number("white", p.depth_white, {kTiny, 1e3});
   readSensor(depth, scenario.sensor(Sensor::Depth), p.depth_lever_body);
   auto begin = yaml.section("initial");
-  readVector(begin, "position", p.start_position, kTiny);
+  readVector<3>(begin, "position", p.start_position, kTiny);
   begin.number("velocity", p.start_velocity, {kTiny, 100});
   begin.angle("tilt_deg", p.start_tilt, {kTiny, 10});
   begin.angle("heading_deg", p.start_heading, {kTiny, 10});

@@ -7,15 +7,10 @@
 #include <cmath>
 
 #include "sas_motion/config/towfish_config.hpp"
+#include "sas_motion/config/yaml_vector.hpp"
 
 namespace sas_motion::towfish {
 namespace {
-
-void readVector2(YamlSection& yaml, const std::string& key, Vector<2>& value) {
-  std::vector<double> numbers{value(0), value(1)};
-  yaml.numbers(key, numbers, 2);
-  value << numbers[0], numbers[1];
-}
 
 void requireMultiple(const YamlSection& yaml, const std::string& key, double seconds, double step) {
   const double steps = seconds / step;
@@ -43,13 +38,13 @@ void readTruth(YamlSection yaml, Scenario& scenario) {
   scenario.kind = kind == "survey" ? Scenario::Kind::Survey : Scenario::Kind::RandomWalk;
   yaml.angle("heading_deg", scenario.heading, {-360, 360});
   yaml.number("speed", scenario.speed, {0, 50});
-  readVector2(yaml, "current", scenario.current);
+  readVector<2>(yaml, "current", scenario.current);
   readMotionParameters(yaml.section("motion"), scenario.motion);
   scenario.process = NoiseMix::read(yaml, "process", NoiseUse::Process);
   auto front = yaml.section("front");
   front.number("time", scenario.front.time, {0, 1e7});
   front.number("width", scenario.front.width, {kTiny, 1e6});
-  readVector2(front, "change", scenario.front.change);
+  readVector<2>(front, "change", scenario.front.change);
   front.finish();
   yaml.number("line_length", scenario.line_length, {kTiny, 1e6});
   yaml.angle("turn_rate_deg", scenario.turn_rate, {kTiny, 90});
@@ -67,10 +62,7 @@ Scenario Scenario::read(YamlSection yaml) {
   yaml.text("name", scenario.name);
   yaml.number("duration", scenario.duration, {kTiny, 1e7});
   yaml.number("step", scenario.step, {1e-4, 10});
-  std::vector<double> datum{scenario.datum.latitude_deg, scenario.datum.longitude_deg, scenario.datum.altitude};
-  yaml.numbers("datum", datum, 3);
-  scenario.datum = {datum[0], datum[1], datum[2]};
-  if (std::abs(datum[0]) > 90) yaml.fail("datum", fmt::format("has latitude {} but it must lie between -90 and 90", datum[0]));
+  readGeodetic(yaml, "datum", scenario.datum);
   readTruth(yaml.section("truth"), scenario);
   scenario.sensor(Sensor::Heading).sigma = 0.5 * kRadPerDeg;
   scenario.sensor(Sensor::TurnRate).sigma = 0.1 * kRadPerDeg;
@@ -80,7 +72,7 @@ Scenario Scenario::read(YamlSection yaml) {
     readSensor(sensors.section(sensorName(sensor)), sensor, scenario.step, scenario.sensor(sensor));
   }
   sensors.finish();
-  readVector2(yaml, "gnss_lever_arm_body", scenario.gnss_lever_arm_body);
+  readVector<2>(yaml, "gnss_lever_arm_body", scenario.gnss_lever_arm_body);
   yaml.finish();
   return scenario;
 }

@@ -6,15 +6,10 @@
 
 #include <algorithm>
 
+#include "sas_motion/config/yaml_vector.hpp"
+
 namespace sas_motion::usbl {
 namespace {
-
-template <int N>
-void readVector(YamlSection& yaml, const std::string& key, Vector<N>& value) {
-  std::vector<double> numbers(value.data(), value.data() + N);
-  yaml.numbers(key, numbers, N);
-  std::copy(numbers.begin(), numbers.end(), value.data());
-}
 
 void readTrack(YamlSection yaml, Track& track) {
   const std::vector<std::string> kinds{"figure_eight", "circle", "waypoints"};
@@ -70,10 +65,7 @@ Scenario Scenario::read(YamlSection yaml) {
   yaml.text("system", system);
   yaml.text("name", scenario.name);
   yaml.number("duration", scenario.duration, {1, 1e7});
-  std::vector<double> datum{scenario.datum.latitude_deg, scenario.datum.longitude_deg, scenario.datum.altitude};
-  yaml.numbers("datum", datum, 3);
-  if (std::abs(datum[0]) > 90) yaml.fail("datum", fmt::format("has latitude {} but it must lie between -90 and 90", datum[0]));
-  scenario.datum = {datum[0], datum[1], datum[2]};
+  readGeodetic(yaml, "datum", scenario.datum);
   readVector<3>(yaml, "transponder", scenario.transponder_map);
   Vector<3> survey_error = scenario.truth.segment<3>(kTransponderX);
   readVector<3>(yaml, "transponder_error", survey_error);

@@ -50,25 +50,14 @@ function draw() {
     .then(() => { if (mine === drawing) document.documentElement.dataset.drawn = view.key; });
 }
 
-function drawForPaper(paper) {
-  document.documentElement.toggleAttribute('data-print', paper);
-  if (paper) document.querySelectorAll('details').forEach(part => { part.open = true; });
-  draw().then(() => paper || document.querySelectorAll('.plot.js-plotly-plot').forEach(place => place.hidden || Plotly.Plots.resize(place)));
+async function prepare() {
+  traces = JSON.parse(await unpack('traces'));
+  offerChoices();
+  chooseTab(tabs[0], () => {});
+  addEventListener('beforeprint', () => document.querySelectorAll('details').forEach(part => { part.open = true; }));
 }
 
-async function start() {
-  const campaignChanged = () => { offerChoices(); draw(); };
-  listenToTabs(campaignChanged);
-  try {
-    await unpackPlotly();
-    traces = JSON.parse(await unpack('traces'));
-    offerChoices();
-    chooseTab(tabs[0], () => {});
-    await draw();
-  } catch (error) {
-    return tellProblem(error);
-  }
-  redrawOnChange([lawChooser, estimatorChooser], draw, drawForPaper);
+if (tabs.length) {
+  listenToTabs(() => { offerChoices(); draw(); });
+  startDrawing([lawChooser, estimatorChooser], draw, prepare);
 }
-
-if (tabs.length) start();

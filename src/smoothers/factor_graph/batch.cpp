@@ -7,6 +7,7 @@
 #include <gtsam/nonlinear/Marginals.h>
 
 #include "guarded.hpp"
+#include "levenberg_marquardt.hpp"
 #include "sas_motion/smoothers/factor_graph/towfish_factors.hpp"
 
 namespace sas_motion::towfish {
@@ -18,17 +19,6 @@ constexpr std::size_t kLongestChain = 20000;  // nodes that elimination may recu
 /// then, whose tree is as deep as the logarithm.
 gtsam::Ordering ordering(const gtsam::NonlinearFactorGraph& graph, std::size_t nodes) {
   return nodes > kLongestChain ? gtsam::Ordering::Metis(graph) : gtsam::Ordering::Natural(graph);
-}
-
-gtsam::LevenbergMarquardtParams levenbergMarquardt(const SmootherOptions& options, gtsam::Marginals::Factorization factorization) {
-  using Solvers = gtsam::NonlinearOptimizerParams;
-  gtsam::LevenbergMarquardtParams params;
-  params.linearSolverType = factorization == gtsam::Marginals::QR ? Solvers::MULTIFRONTAL_QR : Solvers::MULTIFRONTAL_CHOLESKY;
-  params.maxIterations = static_cast<std::size_t>(options.max_iterations);
-  params.relativeErrorTol = options.tolerance;
-  params.absoluteErrorTol = 0;
-  params.lambdaInitial = 1e-9;  // the filter's trajectory is near: begin as Gauss-Newton
-  return params;
 }
 
 std::vector<StateVector> trajectoryOf(const gtsam::Values& values) {
@@ -74,7 +64,7 @@ SmootherResult smoothBatch(const SmoothingProblem& problem, const SmootherOption
     if (options.loss.redescending()) stages.insert(stages.begin(), Loss(LossKind::Huber));
     for (const Loss& loss : stages) {
       const auto graph = buildGraph(problem, loss);
-      auto params = levenbergMarquardt(options, factorization);
+      auto params = levenbergMarquardt(options.max_iterations, options.tolerance, factorization);
       params.ordering = ordering(graph, values.size());
       gtsam::LevenbergMarquardtOptimizer optimizer(graph, values, params);
       values = optimizer.optimize();
@@ -91,7 +81,7 @@ SmootherResult smoothBatch(const SmoothingProblem& problem, const SmootherOption
 SmootherResult smoothGnc(const SmoothingProblem& problem, double probability) {
   return guarded(SmootherResult(), [&](Factorization factorization) {
     const auto graph = buildGraph(problem, Loss(LossKind::L2));
-    gtsam::GncParams<gtsam::LevenbergMarquardtParams> params(levenbergMarquardt({Loss(LossKind::L2), 100, 1e-7}, factorization));
+    gtsam::GncParams<gtsam::LevenbergMarquardtParams> params(levenbergMarquardt(100, 1e-7, factorization));
     params.baseOptimizerParams.ordering = ordering(graph, problem.nodes());
     params.setLossType(gtsam::GncLossType::TLS);
     gtsam::GncParams<gtsam::LevenbergMarquardtParams>::IndexVector trusted;

@@ -9,23 +9,13 @@
 #include <gtsam/nonlinear/PriorFactor.h>
 
 #include "guarded.hpp"
+#include "levenberg_marquardt.hpp"
 #include "sas_motion/smoothers/factor_graph/usbl_factors.hpp"
 
 namespace sas_motion::usbl {
 namespace {
 
 using Factorization = gtsam::Marginals::Factorization;
-
-gtsam::LevenbergMarquardtParams levenbergMarquardt(const FitOptions& options, Factorization factorization) {
-  using Solvers = gtsam::NonlinearOptimizerParams;
-  gtsam::LevenbergMarquardtParams params;
-  params.linearSolverType = factorization == gtsam::Marginals::QR ? Solvers::MULTIFRONTAL_QR : Solvers::MULTIFRONTAL_CHOLESKY;
-  params.maxIterations = static_cast<std::size_t>(options.max_iterations);
-  params.relativeErrorTol = options.tolerance;
-  params.absoluteErrorTol = 0;
-  params.lambdaInitial = 1e-9;  // degrees and metres from the solution: begin as Gauss-Newton
-  return params;
-}
 
 /// d unknowns / d variables' tangents at x.
 Matrix<kUnknowns> chart(const Unknowns& x) {
@@ -75,7 +65,7 @@ Fit solveFactorGraph(const Problem& problem, const FitOptions& options, const Un
   Fit fit = guarded(beginning(problem, start), [&](Factorization factorization) {
     Fit found = beginning(problem, start);
     const auto graph = buildGraph(problem, options.loss, start);
-    gtsam::LevenbergMarquardtOptimizer optimizer(graph, valuesFrom(problem.prior, start), levenbergMarquardt(options, factorization));
+    gtsam::LevenbergMarquardtOptimizer optimizer(graph, valuesFrom(problem.prior, start), levenbergMarquardt(options.max_iterations, options.tolerance, factorization));
     found.x = unknownsFrom(optimizer.optimize(), start);
     found.cost = optimizer.error();
     found.iterations = static_cast<int>(optimizer.iterations());
@@ -91,7 +81,7 @@ Fit solveFactorGraph(const Problem& problem, const FitOptions& options, const Un
 Fit solveGnc(const Problem& problem, double probability, const Unknowns& start) {
   return guarded(beginning(problem, start), [&](Factorization factorization) {
     const auto graph = buildGraph(problem, Loss(LossKind::L2), start);
-    gtsam::GncParams<gtsam::LevenbergMarquardtParams> params(levenbergMarquardt({Loss(LossKind::L2), false, 100, 1e-9}, factorization));
+    gtsam::GncParams<gtsam::LevenbergMarquardtParams> params(levenbergMarquardt(100, 1e-9, factorization));
     params.setLossType(gtsam::GncLossType::TLS);
     gtsam::GncParams<gtsam::LevenbergMarquardtParams>::IndexVector trusted;
     const std::size_t priors = keysOf(problem.prior).size();

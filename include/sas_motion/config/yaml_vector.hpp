@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sas_motion/config/yaml_section.hpp"
+#include "sas_motion/math/types.hpp"
+#include "sas_motion/navigation/local_frame.hpp"
+
+namespace sas_motion {
+
+/// A key that holds a list of N numbers, each at least `lower`. Throws ConfigError.
+template <int N>
+void readVector(YamlSection& yaml, const std::string& key, Vector<N>& value, double lower = -std::numeric_limits<double>::infinity()) {
+  std::vector<double> numbers(value.data(), value.data() + N);
+  yaml.numbers(key, numbers, N);
+  for (const double number : numbers)
+    if (number < lower) yaml.fail(key, fmt::format("has {} but it must be at least {}", number, lower));
+  std::copy(numbers.begin(), numbers.end(), value.data());
+}
+
+/// A key that holds latitude, longitude [deg] and altitude [m], the latitude within `bound` of the equator. Throws ConfigError.
+inline void readGeodetic(YamlSection& yaml, const std::string& key, Geodetic& value, int bound = 90) {
+  Vector<3> numbers(value.latitude_deg, value.longitude_deg, value.altitude);
+  readVector<3>(yaml, key, numbers);
+  if (std::abs(numbers(0)) > bound) yaml.fail(key, fmt::format("has latitude {} but it must lie between -{} and {}", numbers(0), bound, bound));
+  value = {numbers(0), numbers(1), numbers(2)};
+}
+
+}  // namespace sas_motion
