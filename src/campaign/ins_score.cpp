@@ -17,7 +17,8 @@ double normalisedSquare(const Vector<3>& error, const Matrix<3>& P) { return err
 
 }  // namespace
 
-void Score::add(double time, const TruthSample& truth, const Solution& solution) {
+void Score::add(const TruthSample& truth, const Solution& solution) {
+  const double time = secondsBetween(0, solution.stamp);
   const Vector<3> position = displacement(truth.state, solution.state);
   const Vector<3> velocity = solution.state.velocity_nav - truth.state.velocity_nav;
   const Vector<3> phi = attitudeError(solution.state.q_nav_body, truth.state.q_nav_body);
@@ -40,23 +41,23 @@ void Score::add(double time, const TruthSample& truth, const Solution& solution)
   }
   trace_.time.push_back(time);
   trace_.error.push_back(position.head<2>().norm());
-  if (!solution.P) return;
+  if (!solution.covariance) return;
   Vector<9> error;
   error << velocity, position, phi;
-  addConsistency(error, *solution.P);
-  const Vector<2> sigma = solution.P->diagonal().segment<2>(kPosition).cwiseSqrt();
+  addConsistency(error, *solution.covariance);
+  const Vector<2> sigma = solution.covariance->diagonal().segment<2>(kPosition).cwiseSqrt();
   trace_.sigma3.push_back(3 * sigma.norm());
   lock_out_.add(time, (position.head<2>().array().abs() / sigma.array()).maxCoeff());
 }
 
-void Score::addConsistency(const Vector<9>& error, const ErrorMatrix& P) {
-  Vector<9> scaled = error.cwiseQuotient(unit_.head<9>());
-  scaled.segment<3>(kPosition) = error.segment<3>(kPosition);  // displacement() is in metres as they are here, the model's as they were at the start
-  nees_["velocity"].push_back(normalisedSquare(scaled.segment<3>(kVelocity), P.block<3, 3>(kVelocity, kVelocity)));
-  nees_["position"].push_back(normalisedSquare(scaled.segment<3>(kPosition), P.block<3, 3>(kPosition, kPosition)));
-  nees_["attitude"].push_back(normalisedSquare(scaled.segment<3>(kAttitude), P.block<3, 3>(kAttitude, kAttitude)));
-  const Matrix<9> all = P.topLeftCorner<9, 9>();
-  const double full = scaled.dot(all.llt().solve(scaled));
+void Score::addConsistency(const Vector<9>& error, const Matrix<9>& P) {
+  const auto group = [&](State first) { return normalisedSquare(error.segment<3>(first), P.block<3, 3>(first, first)); };
+  nees_["velocity"].push_back(group(kVelocity));
+  nees_["position"].push_back(group(kPosition));
+  nees_["attitude"].push_back(group(kAttitude));
+  const Vector<9> scale = P.diagonal().cwiseSqrt(), scaled = error.cwiseQuotient(scale);  // m/s, m and rad are far from alike
+  const Matrix<9> correlation = scale.cwiseInverse().asDiagonal() * P * scale.cwiseInverse().asDiagonal();
+  const double full = scaled.dot(correlation.llt().solve(scaled));
   nees_["full"].push_back(full / 9);
   trace_.nees.push_back(full);
 }

@@ -6,35 +6,26 @@
 #include <map>
 
 #include "sas_motion/campaign/report.hpp"
-#include "sas_motion/pipeline/ins_navigator.hpp"
+#include "sas_motion/pipeline/ins_estimator.hpp"
 #include "sas_motion/simulation/ins_simulator.hpp"
 
 namespace sas_motion::ins {
 
-/// One answer to score against truth: of the INS, or of a sensor that knows only some of it.
-struct Solution {
-  NavigationState state;
-  bool moving = true;              ///< velocity is known
-  bool lying = true;               ///< attitude is known
-  const ErrorMatrix* P = nullptr;  ///< of the INS, where the solution is its
-};
-
 /// Scores one solution over a run.
 class Score {
  public:
-  Score(const Scenario& scenario, const Errors& unit, double skip) : scenario_(scenario), unit_(unit), skip_(skip) {}
+  Score(const Scenario& scenario, double skip) : scenario_(scenario), skip_(skip) {}
 
-  void add(double time, const TruthSample& truth, const Solution& solution);
+  void add(const TruthSample& truth, const Solution& solution);
   void add(const Audit& audit, const LabelledAiding& labelled);
 
   EstimatorReport report(const std::string& name) const;
   const Trace& trace() const { return trace_; }
 
  private:
-  void addConsistency(const Vector<9>& error, const ErrorMatrix& P);
+  void addConsistency(const Vector<9>& error, const Matrix<9>& P);
 
   const Scenario& scenario_;
-  Errors unit_;
   double skip_;
   std::map<std::string, std::vector<double>> errors_, nees_;
   std::array<std::vector<double>, kSensors> nis_;

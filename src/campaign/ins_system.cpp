@@ -8,6 +8,7 @@
 
 #include "ins_score.hpp"
 #include "sas_motion/io/cpu_time.hpp"
+#include "sas_motion/pipeline/ins_solutions.hpp"
 #include "systems.hpp"
 
 namespace sas_motion {
@@ -17,31 +18,9 @@ using namespace ins;
 
 constexpr double kScoreEvery = 0.1;  // [s]
 
-enum class Source { Fused, Gps, Dvl, Smooth };
-enum class FilterKind { Unaided, Ckf27, OpenLoopCkf27, RobustCkf27 };
-
-/// An estimator of a campaign: which filter runs, and which of its solutions is meant.
-struct Candidate {
-  const char* name;
-  FilterKind filter;
-  Source source;
-};
-constexpr std::array<Candidate, 12> kCandidates{{{"ins", FilterKind::Unaided, Source::Fused},
-                                                 {"gps", FilterKind::Unaided, Source::Gps},
-                                                 {"dvl", FilterKind::Unaided, Source::Dvl},
-                                                 {"ckf27", FilterKind::Ckf27, Source::Fused},
-                                                 {"gps_ckf27", FilterKind::Ckf27, Source::Gps},
-                                                 {"dvl_ckf27", FilterKind::Ckf27, Source::Dvl},
-                                                 {"open_loop_ckf27", FilterKind::OpenLoopCkf27, Source::Fused},
-                                                 {"robust_ckf27", FilterKind::RobustCkf27, Source::Fused},
-                                                 {"gps_robust_ckf27", FilterKind::RobustCkf27, Source::Gps},
-                                                 {"dvl_robust_ckf27", FilterKind::RobustCkf27, Source::Dvl},
-                                                 {"smooth_ckf27", FilterKind::Ckf27, Source::Smooth},
-                                                 {"smooth_robust_ckf27", FilterKind::RobustCkf27, Source::Smooth}}};
-
 /// What one estimator made of a run.
 struct Scored {
-  const Candidate* candidate;
+  const NamedSolution* solution;
   Score score;
   double microseconds = 0;
 };
@@ -52,31 +31,24 @@ class RunScoring {
   RunScoring(const Scenario& scenario, double skip, std::uint64_t seed)
       : scenario_(scenario), trajectory_(scenario.track, scenario.duration), recording_(simulate(scenario, trajectory_, seed)), skip_(skip) {}
 
-  std::vector<Scored> of(const std::vector<const Candidate*>& candidates) const {
+  std::vector<Scored> of(const std::vector<const NamedSolution*>& solutions) const {
     std::vector<Scored> all;
-    const Errors unit = ErrorModel(scenario_.parameters, recording_.start).unit();
-    for (const Candidate* candidate : candidates) all.push_back({candidate, Score(scenario_, unit, skip_)});
-    for (const auto filter : {FilterKind::Unaided, FilterKind::Ckf27, FilterKind::OpenLoopCkf27, FilterKind::RobustCkf27}) {
+    for (const NamedSolution* solution : solutions) all.push_back({solution, Score(scenario_, skip_)});
+    Config config{scenario_.parameters, {}};
+    config.imu.period = 1 / scenario_.imu_rate;
+    for (const auto kind : kFilterKinds) {
       std::vector<Scored*> mine;
       for (auto& scored : all)
-        if (scored.candidate->filter == filter) mine.push_back(&scored);
+        if (scored.solution->filter == kind) mine.push_back(&scored);
       if (mine.empty()) continue;
-      switch (filter) {
-        case FilterKind::Unaided: follow(Unaided(), false, mine); break;
-        case FilterKind::Ckf27: follow(KalmanFilter<kStates>(), true, mine); break;
-        case FilterKind::OpenLoopCkf27: follow(KalmanFilter<kStates>(), false, mine); break;
-        case FilterKind::RobustCkf27: follow(RobustKalmanFilter<kStates>({}), true, mine); break;
-      }
+      withFilter(kind, config, [&](const auto& filter, const NavigatorOptions& options) { follow(filter, options, mine); });
     }
     return all;
   }
 
  private:
   template <class Filter>
-  void follow(const Filter& filter, bool feedback, const std::vector<Scored*>& scored) const {
-    typename Navigator<Filter>::Options options;
-    options.feedback = feedback;
-    options.imu.period = 1 / scenario_.imu_rate;
+  void follow(const Filter& filter, const NavigatorOptions& options, const std::vector<Scored*>& scored) const {
     Navigator<Filter> navigator(filter, scenario_.parameters, recording_.start, 0, options);
     auto next = recording_.aiding.begin();
     double scoring = 0;
@@ -102,15 +74,8 @@ class RunScoring {
     const double ticks = time / kScoreEvery;
     if (std::abs(ticks - std::round(ticks)) > 1e-6) return;
     const TruthSample truth = trajectory_.at(time);
-    const ErrorMatrix* P = std::is_same_v<Filter, Unaided> ? nullptr : &navigator.belief().covariance;
-    for (auto* one : scored) switch (one->candidate->source) {
-        case Source::Fused: one->score.add(time, truth, {navigator.fused(), true, true, P}); break;
-        case Source::Dvl: one->score.add(time, truth, {navigator.dvl(), true, false, nullptr}); break;
-        case Source::Smooth: one->score.add(time, truth, {navigator.smooth(), true, true, nullptr}); break;
-        case Source::Gps:
-          if (navigator.gps() && navigator.gps()->stamp == navigator.stamp()) one->score.add(time, truth, {navigator.gps()->state, false, false, nullptr});
-          break;
-      }
+    for (auto* one : scored)
+      if (const auto solution = solutionOf(navigator, one->solution->source)) one->score.add(truth, *solution);
   }
 
   const Scenario& scenario_;
@@ -135,9 +100,9 @@ class InsSystem final : public System {
     campaign.texts("estimators", estimators);
     if (estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
     for (const auto& name : estimators) {
-      const auto* found = std::find_if(kCandidates.begin(), kCandidates.end(), [&](const Candidate& candidate) { return candidate.name == name; });
-      if (found == kCandidates.end()) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
-      candidates_.push_back(found);
+      const NamedSolution* found = findSolution(name);
+      if (!found) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
+      solutions_.push_back(found);
     }
     for (auto& item : campaign.list("laws")) readLaw(item, scenario);
     if (laws.empty()) campaign.fail("laws", "is missing; list at least one");
@@ -145,8 +110,8 @@ class InsSystem final : public System {
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
     std::vector<EstimatorReport> reports;
-    for (const auto& scored : RunScoring(scenarios_[law], skip, seed).of(candidates_)) {
-      reports.push_back(scored.score.report(scored.candidate->name));
+    for (const auto& scored : RunScoring(scenarios_[law], skip, seed).of(solutions_)) {
+      reports.push_back(scored.score.report(scored.solution->name));
       reports.back().microseconds = scored.microseconds;
     }
     return reports;
@@ -154,8 +119,8 @@ class InsSystem final : public System {
 
   Named<Trace> trace(std::size_t law, std::uint64_t seed) const override {
     Named<Trace> traces;
-    for (const auto& scored : RunScoring(scenarios_[law], skip, seed).of(candidates_)) {
-      traces.emplace_back(scored.candidate->name, scored.score.trace());
+    for (const auto& scored : RunScoring(scenarios_[law], skip, seed).of(solutions_)) {
+      traces.emplace_back(scored.solution->name, scored.score.trace());
       traces.back().second.nees_degrees = 9;
       traces.back().second.nis_degrees = rowsOf(Sensor::Gps);
     }
@@ -180,7 +145,7 @@ class InsSystem final : public System {
     scenarios_.push_back(scenario);
   }
 
-  std::vector<const Candidate*> candidates_;
+  std::vector<const NamedSolution*> solutions_;
   std::vector<Scenario> scenarios_;  // by law
 };
 

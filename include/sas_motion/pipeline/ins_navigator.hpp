@@ -28,6 +28,14 @@ struct Audit {
   Vector<3> weights = Vector<3>::Ones();
 };
 
+struct NavigatorOptions {
+  bool feedback = true;
+  double step = 0.2;                                              ///< longest time of one prediction of the filter [s]
+  double smooth_velocity_time = 30, smooth_position_time = 3000;  ///< in which the smooth solution follows the fused one [s]
+  Mechanisation::Options imu;
+  double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
+};
+
 /// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of the INS itself (feedback)
 /// or of its output (open loop). (C.4)
 ///
@@ -35,13 +43,7 @@ struct Audit {
 template <class Filter>
 class Navigator {
  public:
-  struct Options {
-    bool feedback = true;
-    double step = 0.2;                                              ///< longest time of one prediction of the filter [s]
-    double smooth_velocity_time = 30, smooth_position_time = 3000;  ///< in which the smooth solution follows the fused one [s]
-    Mechanisation::Options imu;
-    double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
-  };
+  using Options = NavigatorOptions;
 
   Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start, Stamp stamp, const Options& options);
 
