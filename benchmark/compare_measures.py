@@ -4,9 +4,9 @@
 """Our measures of a point target beside perseo-quality's on the same chips.
 
 usage: compare_measures.py TOOLS [CHIP...]    TOOLS: folder of point_target_answers; CHIP: unweighted, Hamming, quadratic, focused; all of them without a word
-Runs in an environment with peers/requirements_imaging.txt; where perseo-quality is not installed it says so and prints our measures. Exit status 1 where PSLR, or
-ISLR over the same side lobes, differ by more than 0.05 dB, or a width by more than 0.5 %. perseo-quality's own ISLR ends the side lobes at 10 widths, not at 10 times
-half the main lobe: its column is printed beside, and has no bound.
+Runs in an environment with peers/requirements_imaging.txt; where perseo-quality is not installed it says so, prints our measures and has exit status 2.
+Exit status 1 where PSLR, or ISLR over the same side lobes, differ by more than 0.05 dB, or a width by more than 0.5 %. perseo-quality's own ISLR ends the
+side lobes at 10 widths, not at 10 times half the main lobe: its column is printed beside, and has no bound.
 """
 import json
 import pathlib
@@ -22,9 +22,9 @@ DIRECTIONS = (('range', 'range_step'), ('along', 'along_step'))
 
 try:
     from peers import perseo_peer
-except ImportError as error:
+except ImportError as why:
     perseo_peer = None
-    print(f'NOT COMPARED with perseo-quality: {error}')
+    print(f'NOT COMPARED with perseo-quality: {why}')
 
 
 def row(name, ours, theirs, step):
@@ -55,7 +55,7 @@ def main():
             cuts = perseo_peer.measures(pixels.astype(complex), halves) if perseo_peer else (None, None)
             for (direction, step), theirs in zip(DIRECTIONS, cuts):
                 agreed &= row(f'{chip["name"]}, {direction}', chip[direction], theirs, axes[step])
-    sys.exit(0 if agreed else 1)
+    sys.exit(1 if not agreed else 0 if perseo_peer else 2)
 
 
 if __name__ == '__main__':

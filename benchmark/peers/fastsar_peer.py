@@ -9,7 +9,7 @@ import fastsar
 import numpy as np
 from fastsar.exact import C as LIGHT
 
-UPSAMPLING = 8
+UPSAMPLING = 8  # its default
 
 
 def phase_history(problem):
@@ -31,11 +31,11 @@ def formers(problem):
     first, along, across = problem.points[0, 0], problem.points[0, 1] - problem.points[0, 0], problem.points[1, 0] - problem.points[0, 0]
     spacing_across, spacing_along = np.linalg.norm(across), np.linalg.norm(along)
     result = {}
-    for interpolation in ('linear', 'cubic'):
+    for interpolation, factor in (('linear', UPSAMPLING), ('linear', 2 * UPSAMPLING), ('cubic', UPSAMPLING)):  # cubic is its default
         former = fastsar.ExactFormer(problem.places, lowest, step, history.shape[1], rows, columns, spacing_across, spacing_along, across / spacing_across,
-                                     along / spacing_along, backend='cpu', window=False, interp=interpolation, upsample=UPSAMPLING, ref=references,
+                                     along / spacing_along, backend='cpu', window=False, interp=interpolation, upsample=factor, ref=references,
                                      center=first + rows / 2 * across + columns / 2 * along)
-        result[f'ExactFormer, {interpolation}'] = lambda former=former: former(history)
-    result['backproject, double'] = lambda: fastsar.backproject(history, problem.places, lowest, step, problem.points, ref=references, backend='cpu',
+        result[f'{interpolation}, {factor} x'] = lambda former=former: former(history)
+    result[f'double, linear, {UPSAMPLING} x'] = lambda: fastsar.backproject(history, problem.places, lowest, step, problem.points, ref=references, backend='cpu',
                                                                 upsample=UPSAMPLING, window=False)
     return result

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """perseo-quality's analysis of a point target on a chip, rows along range.
 
-Its main lobe ends at the first minima, as ours does. Its width is taken at half the power (ours at 10^-0.3 of it), between samples linearly in dB (ours in power).
-Its side lobes reach 5 widths each side of the peak for the PSLR and 10 for the ISLR; ours 10 times half the main lobe for both. The function that gives the ISLR
-takes the width as an argument, from which it has the end of the side lobes and nothing else: with half our main lobe for the width, they end where ours do.
+Its main lobe ends at the first minima, as ours does. Its width is taken at half the power (ours at 10^-0.3 of it), between samples linearly in dB (ours in
+power). Its side lobes reach 5 widths each side of the peak for the PSLR and 10 for the ISLR; ours 10 times half the main lobe for both. The function that
+gives the ISLR takes the width as an argument, from which it has the end of the side lobes and nothing else: with half our main lobe for the width, they end
+where ours do.
 """
 import math
 from types import SimpleNamespace
