@@ -88,6 +88,7 @@ bool differsByRun(const Scenario& scenario) {
 }  // namespace
 
 Named<double> insBound(const Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds) {
+  if (scenario.parameters.dvl_scale > 0 || scenario.parameters.dvl_misalignment > 0) return {};  // not among the 27 states
   const Trajectory trajectory(scenario.track, scenario.duration);
   const InsBound bound(scenario, trajectory);
   MeanBound<kStates> scored, outage;

@@ -10,10 +10,6 @@
 namespace sas_motion::ins {
 namespace {
 
-constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
-
-Matrix<3> cross(const Vector<3>& v) { return (Matrix<3>() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished(); }
-
 double markovDensity(double sigma, double time) { return 2 * sigma * sigma / time; }
 
 Vector<3> positionOf(const NavigationState& state) { return {state.longitude, state.latitude, state.height}; }
@@ -82,15 +78,20 @@ ErrorMatrix ErrorModel::dynamics(const Motion& motion) const {
   // Dead reckoning turns the reading by the computed attitude: C' v = C v + v x phi.
   const auto scale = unit_.segment<3>(kPosition).asDiagonal();
   F.block<3, 3>(kDvlPosition, kDvlVelocity) = scale * C;
-  F.block<3, 3>(kDvlPosition, kAttitude) = scale * cross(motion.state.velocity_nav);
+  F.block<3, 3>(kDvlPosition, kAttitude) = scale * crossMatrix(motion.state.velocity_nav);
   return unit_.cwiseInverse().asDiagonal() * F * unit_.asDiagonal();
+}
+
+ErrorMatrix ErrorModel::transitionMatrix(const Motion& motion, double T) const {
+  const ErrorMatrix FT = dynamics(motion) * T;
+  ErrorMatrix Phi = ErrorMatrix::Identity() + FT;
+  Phi.noalias() += 0.5 * FT * FT;
+  return Phi;
 }
 
 Transition<kStates> ErrorModel::transition(const Motion& motion, double T, const Errors& mean) const {
   Transition<kStates> step;
-  const ErrorMatrix FT = dynamics(motion) * T;
-  step.F = ErrorMatrix::Identity() + FT;
-  step.F.noalias() += 0.5 * FT * FT;
+  step.F = transitionMatrix(motion, T);
   step.Q.noalias() = 0.5 * T * (step.F * density_.asDiagonal() * step.F.transpose());
   step.Q.diagonal() += 0.5 * T * density_;
   step.mean.noalias() = step.F * mean;
@@ -118,7 +119,7 @@ LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const 
   difference.x() = wrapAngle(difference.x());
   z.H.setZero();
   z.H.block<3, 3>(0, kPosition).setIdentity();
-  z.H.block<3, 3>(0, kAttitude) = kMilliradian * cross(lever);
+  z.H.block<3, 3>(0, kAttitude) = kMilliradian * crossMatrix(lever);
   z.H.block<3, 3>(0, kGpsPosition) = -Matrix<3>::Identity();
   z.R = parameters_.gps_white.cwiseAbs2().asDiagonal();
   z.innovation = difference.cwiseProduct(metresPerPosition()) + lever - z.H * mean;
@@ -136,7 +137,7 @@ LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const 
   const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
   z.H.setZero();
   z.H.block<3, 3>(0, kVelocity) = C_body_nav;
-  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * cross(ins.velocity_nav);
+  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * crossMatrix(ins.velocity_nav);
   z.H.block<3, 3>(0, kDvlVelocity) = -Matrix<3>::Identity();
   z.R = parameters_.dvl_white * parameters_.dvl_white * Matrix<3>::Identity();
   z.innovation = C_body_nav * ins.velocity_nav - velocityOfIns(ins, rate_body, velocity_body) - z.H * mean;
@@ -148,11 +149,15 @@ LinearMeasurement<kStates, 1> ErrorModel::depth(const NavigationState& ins, doub
   const Vector<3> lever = ins.q_nav_body * parameters_.depth_lever_body;
   z.H.setZero();
   z.H(0, kPosition + 2) = 1;
-  z.H.block<1, 3>(0, kAttitude) = kMilliradian * cross(lever).row(2);
+  z.H.block<1, 3>(0, kAttitude) = kMilliradian * crossMatrix(lever).row(2);
   z.R(0, 0) = parameters_.depth_white * parameters_.depth_white;
   z.innovation = Vector<1>(ins.height + lever.z() - height) - z.H * mean;
   return z;
 }
+
+Matrix<3> crossMatrix(const Vector<3>& v) { return (Matrix<3>() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished(); }
+
+Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment) { return (1 + scale) * (Matrix<3>::Identity() - crossMatrix(misalignment)); }
 
 NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit) {
   NavigationState state = ins;

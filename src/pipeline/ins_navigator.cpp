@@ -21,6 +21,15 @@ Audit auditOf(const Aiding& reading, const Update<Gaussian<kStates>, M>& update)
 
 }  // namespace
 
+Errors gapVariance(const NavigatorOptions& options, double gap, double part) {
+  const double force = options.bridge_force, rate = options.bridge_rate / kMilliradian;
+  Errors variance = Errors::Zero();
+  variance.segment<3>(kVelocity).setConstant(force * force * gap * part);
+  variance.segment<3>(kPosition).setConstant(0.25 * force * force * gap * gap * gap * part);
+  variance.segment<3>(kAttitude).setConstant(rate * rate * gap * part);
+  return variance;
+}
+
 template <int M>
 Update<Gaussian<kStates>, M> Unaided::update(const Gaussian<kStates>& prior, const LinearMeasurement<kStates, M>& z) const {
   return examine(prior, z);
@@ -135,15 +144,9 @@ NavigationState Navigator<Filter>::smooth() const {
   return state;
 }
 
-/// A part of a gap: the variances of its parts add up to those of a force and a rate that are wrong throughout.
 template <class Filter>
 void Navigator<Filter>::widenForGap(double part) {
-  const double force = options_.bridge_force, rate = options_.bridge_rate / model_.unit()(kAttitude);
-  Errors variance = Errors::Zero();
-  variance.segment<3>(kVelocity).setConstant(force * force * gap_ * part);
-  variance.segment<3>(kPosition).setConstant(0.25 * force * force * gap_ * gap_ * gap_ * part);
-  variance.segment<3>(kAttitude).setConstant(rate * rate * gap_ * part);
-  addCovariance(belief_, ErrorMatrix(variance.asDiagonal()));
+  addCovariance(belief_, ErrorMatrix(gapVariance(options_, gap_, part).asDiagonal()));
 }
 
 template <class Filter>

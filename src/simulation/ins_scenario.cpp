@@ -114,6 +114,8 @@ Scenario Scenario::read(YamlSection yaml) {
   dvl.number("markov", p.dvl_markov, {kTiny, 10});
   dvl.number("time", p.dvl_time, {1, 1e7});
   dvl.number("white", p.dvl_white, {kTiny, 10});
+  scaled(dvl, "scale_percent", p.dvl_scale, 0.01, {0, 20});
+  dvl.angle("misalignment_deg", p.dvl_misalignment, {0, 10});
   readSensor(dvl, scenario.sensor(Sensor::Dvl), p.dvl_lever_body);
   p.dvl_rate = scenario.sensor(Sensor::Dvl).rate;
   auto depth = yaml.section("depth");

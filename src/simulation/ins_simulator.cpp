@@ -12,7 +12,7 @@
 namespace sas_motion::ins {
 namespace {
 
-constexpr std::uint64_t kStartStream = 1, kImuStream = 2, kMarkovStream = 10, kRowStream = 20, kSpellStream = 40;
+constexpr std::uint64_t kStartStream = 1, kImuStream = 2, kMarkovStream = 10, kRowStream = 20, kSpellStream = 40, kDvlMountingStream = 60;
 
 Vector<3> gaussians(Random& random) {
   const double x = random.gaussian(), y = random.gaussian();
@@ -53,6 +53,13 @@ void addImuErrors(std::vector<ImuReading>& readings, const Parameters& p, std::u
   }
 }
 
+/// How this run's DVL is scaled and mounted.
+Matrix<3> drawnDistortion(const Parameters& p, std::uint64_t seed) {
+  Random random(seed, kDvlMountingStream);
+  const double scale = p.dvl_scale * random.gaussian();
+  return dvlDistortion(scale, p.dvl_misalignment * gaussians(random));
+}
+
 /// One of the sensors that aid, with what it remembers.
 class AidingSource {
  public:
@@ -60,6 +67,7 @@ class AidingSource {
       : parameters_(scenario.parameters),
         readings_(scenario.sensor(sensor)),
         sensor_(sensor),
+        distortion_(drawnDistortion(scenario.parameters, seed)),
         random_(seed, kMarkovStream + static_cast<std::uint64_t>(sensor)),
         markov_(random_) {
     const auto first = kRowStream + 4 * static_cast<std::uint64_t>(sensor);
@@ -109,7 +117,7 @@ class AidingSource {
     const auto& state = truth.state;
     const Vector<3> rate = truth.rateBody() - state.q_nav_body.conjugate() * earth::rotationRate(state.latitude);
     Aiding reading;
-    reading.velocity_body = state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(parameters_.dvl_lever_body) + error;
+    reading.velocity_body = distortion_ * (state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(parameters_.dvl_lever_body)) + error;
     return reading;
   }
   Aiding depth(const TruthSample& truth, double error) const {
@@ -122,6 +130,7 @@ class AidingSource {
   const Parameters& parameters_;
   const Scenario::Readings& readings_;
   Sensor sensor_;
+  Matrix<3> distortion_;  // of the DVL
   Random random_;
   Markov markov_;
   std::vector<NoiseSource> rows_;

@@ -15,6 +15,7 @@
 #include "sas_motion/campaign/ordered_tasks.hpp"
 #include "sas_motion/campaign/suite.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
+#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 #include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
 
 namespace {
@@ -125,7 +126,7 @@ json tracesOf(const Suite& suite) {
 }
 
 void run(const Options& options) {
-  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter);
+  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter, ins::makeAnyEstimator);
   if (options.runs > 0) suite.runs = options.runs;
   if (options.plan) fmt::print("{}\n", planOf(suite).dump());
   if (!options.tasks.empty()) printTasks(suite, options);

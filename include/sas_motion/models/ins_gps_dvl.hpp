@@ -27,6 +27,7 @@ using Errors = Vector<kStates>;
 using ErrorMatrix = Matrix<kStates>;
 
 constexpr double kDegPerHour = kRadPerDeg / 3600;
+constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
 
 /// How wrong the sensors are: constants, first-order Markov processes and white noise. (C.4), its defaults.
 struct Parameters {
@@ -43,6 +44,8 @@ struct Parameters {
   double dvl_time = 300;                               ///< [s]
   double dvl_white = 0.01;                             ///< [m/s]
   double dvl_rate = 5;                                 ///< readings that are dead-reckoned [1/s]
+  double dvl_scale = 0;                                ///< that the filters do not know; 0 where there is none [-]
+  double dvl_misalignment = 0;                         ///< the same, about each axis [rad]
   double depth_white = 0.1;                            ///< [m]
   Vector<3> start_position{2, 2, 2};                   ///< [m]
   double start_velocity = 0.05;                        ///< [m/s]
@@ -86,7 +89,9 @@ class ErrorModel {
 
   /// F, (C.5), per second.
   ErrorMatrix dynamics(const Motion& motion) const;
-  /// Phi = I + F T + F^2 T^2 / 2 and Q_d = T (Phi q Phi^T + q) / 2. (C.4)
+  /// Phi = I + F T + F^2 T^2 / 2. (C.4)
+  ErrorMatrix transitionMatrix(const Motion& motion, double T) const;
+  /// Phi, and Q_d = T (Phi q Phi^T + q) / 2. (C.4)
   Transition<kStates> transition(const Motion& motion, double T, const Errors& mean) const;
   Gaussian<kStates> start() const;
 
@@ -110,6 +115,12 @@ class ErrorModel {
   Errors unit_;
   Errors density_;  // of the white noise that drives each state, in its units squared per second
 };
+
+/// What a DVL makes of its velocity, by its scale and its small misalignment: (1 + s) (I - [mu x]).
+Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment);
+
+/// [v x].
+Matrix<3> crossMatrix(const Vector<3>& v);
 
 /// The INS without the errors that are estimated of it.
 NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit);

@@ -9,13 +9,23 @@
 #include <vector>
 
 #include "sas_motion/pipeline/ins_navigator.hpp"
+#include "sas_motion/smoothers/options.hpp"
 
 namespace sas_motion::ins {
+
+/// A smoother over a sliding window.
+struct FixedLag {
+  Loss loss{LossKind::Huber};
+  double lag = 60;            ///< the window's length [s]
+  double solve_interval = 5;  ///< between two solutions [s]
+};
 
 /// What every estimator of this system is told.
 struct Config {
   Parameters parameters;
   Mechanisation::Options imu;
+  SmootherOptions batch;
+  FixedLag fixed_lag;
 };
 
 /// Where and how the body is at a stamp.
