@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 
+#include "ins_campaign.hpp"
 #include "ins_score.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/pipeline/ins_solutions.hpp"
@@ -112,23 +112,11 @@ class RunScoring {
 
 class InsSystem final : public System {
  public:
-  InsSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make) : make_(make) {
-    std::string file;
-    campaign.text("scenario", file);
-    if (file.empty()) campaign.fail("scenario", "is missing; name a scenario file");
-    Scenario scenario = Scenario::fromFile(std::filesystem::path(folder) / file);
-    campaign.number("duration", scenario.duration, {1, 1e6});
+  InsSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make)
+      : make_(make), scenarios_(readInsCampaign(campaign, folder, *this)) {
     dimension = kStates;
-    duration = scenario.duration;
-    skip = 120;
-    campaign.number("skip", skip, {0, 1e6});
-    if (skip >= duration) campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
-    campaign.texts("estimators", estimators);
-    if (estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
     for (const auto& name : estimators)
       if (!findSolution(name) && !make_(name, {})) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
-    for (auto& item : campaign.list("laws")) readLaw(item, scenario);
-    if (laws.empty()) campaign.fail("laws", "is missing; list at least one");
   }
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
@@ -153,21 +141,6 @@ class InsSystem final : public System {
   Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override { return insBound(scenarios_[law], skip, seeds); }
 
  private:
-  /// `noise` is of GPS and DVL; `gps_outages` are added to the scenario's.
-  void readLaw(YamlSection& item, Scenario scenario) {
-    std::string name;
-    item.text("name", name);
-    if (item.has("noise")) scenario.sensor(Sensor::Gps).noise = scenario.sensor(Sensor::Dvl).noise = Scenario::readNoise(item, "noise");
-    for (const auto& outage : Scenario::readOutages(item, "gps_outages")) scenario.sensor(Sensor::Gps).outages.push_back(outage);
-    item.finish();
-    laws.push_back(lawInfo(name, scenario.sensor(Sensor::Gps).noise, {}));
-    if (const auto& outages = scenario.sensor(Sensor::Gps).outages; !outages.empty()) {
-      for (const auto& outage : outages) laws.back().description += fmt::format(", no GPS from {} to {} s", outage.begin, outage.end);
-      laws.back().epsilon = laws.back().K = std::nullopt;
-    }
-    scenarios_.push_back(scenario);
-  }
-
   EstimatorFactory make_;
   std::vector<Scenario> scenarios_;  // by law
 };

@@ -16,6 +16,8 @@ std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::stri
 std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign);
 std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string& folder, const usbl::FitterFactory& fitters);
 std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder, const ins::EstimatorFactory& make);
+/// Fails where the build has no imaging.
+std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string& folder, const ins::EstimatorFactory& make);
 
 /// The bound of each group of states, by its name; empty where one is not known at all.
 template <int N>

@@ -111,8 +111,9 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
     case Sensor::Gps: {
       update(model_.gps(ins, reading.fix, belief_.mean));
       Fix fix{reading.stamp, reading.fix};
+      fix.state.q_nav_body = fused().q_nav_body;
       const Errors& mean = belief_.mean;
-      displace(fix.state, -(fused().q_nav_body * model_.parameters().gps_lever_body) - mean.segment<3>(kGpsPosition));
+      displace(fix.state, -(fix.state.q_nav_body * model_.parameters().gps_lever_body) - mean.segment<3>(kGpsPosition));
       gps_ = fix;
       break;
     }

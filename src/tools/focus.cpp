@@ -8,10 +8,12 @@
 
 #include <filesystem>
 
-#include "focus_bench.hpp"
+#include "focus_window.hpp"
 #include "main_guard.hpp"
 #include "progress.hpp"
 #include "sas_motion/config/focus_config.hpp"
+#include "sas_motion/imaging/focus_bench.hpp"
+#include "sas_motion/imaging/image_file.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 
 namespace {
@@ -19,11 +21,27 @@ namespace {
 using namespace sas_motion;
 using namespace sas_motion::imaging;
 
-struct Options : FocusOptions {
-  std::string config;
+struct Options {
+  std::string bag, out, config;
   std::vector<std::string> trajectories;
-  bool figures = true;
+  int jobs = 1;
+  bool autofocus = false, figures = true;
 };
+
+FocusImage written(const FocusedImage& focused, const std::string& folder, const std::string& stem) {
+  makeFolder(folder);
+  writeImage(folder + "/" + stem, focused.image);
+  return {stem, focused.targets, focused.whole_image_islr, focused.entropy};
+}
+
+/// Focuses, measures and writes the image along one trajectory.
+FocusedTrajectory focusAlong(const RecordedTrajectory& trajectory, const std::vector<PingPose>& poses, FocusBench& bench, const Options& options) {
+  FocusedTrajectory result{trajectory.name, trajectory.topic, bench.error(poses), {}, std::nullopt};
+  const FocusedImage focused = bench.focus(poses);
+  result.image = written(focused, options.out, trajectory.name);
+  if (options.autofocus) result.autofocused = written(bench.autofocus(focused, poses), options.out, trajectory.name + "_autofocus");
+  return result;
+}
 
 /// By the script beside this tool, which reads what stands in the folder.
 void drawFigures(const std::string& folder) {
@@ -46,10 +64,10 @@ void run(const Options& options) {
   result.window = pings.window;
   {
     Progress progress("focus", static_cast<double>(trajectories.size() + 1), 0);
-    FocusBench bench(options, result.settings, pings);
+    FocusBench bench(result.settings, pings.times, pings.poses.front(), options.jobs);
     progress.advance(1);
     for (std::size_t i = 0; i < trajectories.size(); ++i) {
-      result.trajectories.push_back(bench.focus(trajectories[i], i));
+      result.trajectories.push_back(focusAlong(trajectories[i], pings.poses[i], bench, options));
       progress.advance(1);
     }
   }

@@ -55,6 +55,12 @@ json planOf(const Suite& suite) {
   return plan;
 }
 
+json toJson(const Named<double>& values) {
+  json object = json::object();
+  for (const auto& [name, value] : values) object[name] = value;  // null where it is not finite
+  return object;
+}
+
 json toJson(const EstimatorReport& report) {
   json result{{"diverged", report.diverged}, {"locked_out", report.locked_out}, {"samples", report.samples}};
   for (const auto& [group, error] : report.errors) result[group] = {{"rmse", error.rmse}, {"p95", error.p95}, {"max", error.max}};
@@ -63,6 +69,7 @@ json toJson(const EstimatorReport& report) {
   result["aperture_across"] = orNull(report.aperture_across);
   result["precision"] = orNull(report.precision);
   result["recall"] = orNull(report.recall);
+  for (const auto& window : report.windows) result["windows"].push_back(toJson(window));
   return result;
 }
 

@@ -58,7 +58,7 @@ class Navigator {
 
   Stamp stamp() const { return ins_.stamp(); }
   NavigationState fused() const { return corrected(ins_.state(), belief_.mean, model_.unit()); }
-  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors.
+  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors; the attitude is the fused one.
   struct Fix {
     Stamp stamp = 0;
     NavigationState state;
