@@ -107,7 +107,8 @@ class ImagingSystem final : public System {
 
  private:
   static Config configOf(const Scenario& scenario) {
-    Config config{scenario.parameters, {}};
+    Config config;
+    config.parameters = scenario.parameters;
     config.imu.period = 1 / scenario.imu_rate;
     return config;
   }
