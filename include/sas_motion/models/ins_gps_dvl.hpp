@@ -62,7 +62,7 @@ const char* sensorName(Sensor sensor);
 constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : sensor == Sensor::Dpc ? 2 : 3; }
 
 /// How the sonar's array moved from one ping to the next, by displaced phase centres: its mean velocity over the ground, which stands for the one in the
-/// middle of the interval. In waves of 6 s that leaves 1/22 of the change of acceleration over 1 s: 0.6 mm/s at 0.2 s, 0.2 mm/s at 0.125 s, for 0.3 m of heave.
+/// middle of the interval T. That leaves v'' T^2 / 24: for 0.3 m of heave in 6 s at most 0.6 mm/s at 0.2 s and 0.2 mm/s at 0.125 s.
 struct ArrayVelocity {
   Vector<3> sight_body = -Vector<3>::UnitZ();  ///< unit vector along the line of sight, across the array
   Vector<2> velocity = Vector<2>::Zero();      ///< forward, and along the sight [m/s]
