@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/micronavigation.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
+#include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/random.hpp"
 
@@ -32,10 +32,10 @@ PingPose waves(double t, double speed) {
   PingPose pose;
   pose.position = position(t);
   pose.velocity = (position(t + 1e-4) - position(t - 1e-4)) / 2e-4;
-  pose.C_local_body = (Eigen::AngleAxisd(0.02 * std::sin(0.7 * t), Eigen::Vector3d::UnitZ()) *
-                       Eigen::AngleAxisd(0.02 * std::sin(1.05 * t + 1), Eigen::Vector3d::UnitY()) *
-                       Eigen::AngleAxisd(0.04 * std::sin(1.2 * t + 2), Eigen::Vector3d::UnitX()))
-                          .toRotationMatrix();
+  pose.C_local_body =
+      (Eigen::AngleAxisd(0.02 * std::sin(0.7 * t), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.02 * std::sin(1.05 * t + 1), Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(0.04 * std::sin(1.2 * t + 2), Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
   return pose;
 }
 
@@ -58,8 +58,8 @@ struct Statistics {
 
 struct Case {
   const char* name;
-  double noise;          // of a raw sample
-  bool believed_true;    // else a straight track at the mean speed, with the attitude of the truth
+  double noise;        // of a raw sample
+  bool believed_true;  // else a straight track at the mean speed, with the attitude of the truth
 };
 
 void run(const Case& setting, int pairs) {
@@ -68,7 +68,7 @@ void run(const Case& setting, int pairs) {
   sonar.far_range = 38;
   sonar.pulse_length = 2e-3;
   Statistics along, sight, turn;
-  double coherence = 0;
+  double coherence = 0, seconds = 0;
   int refused = 0;
   for (int i = 0; i < pairs; ++i) {
     const double t = 1.37 * i, speed = 1.2 + 0.6 * std::fmod(0.618 * i, 1.0);  // any share of a phase centre
@@ -90,21 +90,22 @@ void run(const Case& setting, int pairs) {
       believed[0].velocity = believed[1].velocity = {speed, 0, 0};
       believed[1].position = believed[0].position + believed[0].velocity / sonar.ping_rate;
     }
+    const double begin = cpuSeconds();
     const Micronavigation found = micronavigate(lines, 0, sonar, believed[0], believed[1], {});
+    seconds += cpuSeconds() - begin;
     if (found.verdict != MicronavigationVerdict::Valid) {
       ++refused;
       fmt::print("  refused: {}\n", describe(found.verdict));
       continue;
     }
-    const Eigen::Matrix3d C =
-        Eigen::Quaterniond(truth[0].C_local_body).slerp(0.5, Eigen::Quaterniond(truth[1].C_local_body)).toRotationMatrix();
+    const Eigen::Matrix3d C = Eigen::Quaterniond(truth[0].C_local_body).slerp(0.5, Eigen::Quaterniond(truth[1].C_local_body)).toRotationMatrix();
     const Eigen::Vector3d moved = C.transpose() * (truth[1].position - truth[0].position + (truth[1].velocity - truth[0].velocity) * found.delay);
     along.add(found.along - moved.x(), found.along_sigma);
     sight.add(found.sight - moved.dot(found.sight_body), found.sight_sigma);
     turn.add(found.turn - (C.transpose() * (truth[1].C_local_body.col(0) - truth[0].C_local_body.col(0))).dot(found.sight_body), found.turn_sigma);
     coherence += found.coherence;
   }
-  fmt::print("{}: coherence {:.3f}, {} refused\n", setting.name, coherence / along.count, refused);
+  fmt::print("{}: coherence {:.3f}, {} refused, {:.0f} ms of CPU a pair\n", setting.name, coherence / along.count, refused, 1e3 * seconds / pairs);
   along.print("along", 1e-6, "um");
   sight.print("sight", 1e-6, "um");
   turn.print("turn", 1e-6, "urad");
@@ -114,8 +115,9 @@ void run(const Case& setting, int pairs) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int pairs = argc > 1 ? std::atoi(argv[1]) : 50;
-  for (const Case& setting : {Case{"true path believed, no noise", 0, true}, Case{"straight path believed, no noise", 0, false},
-                              Case{"straight path believed, noise", 0.7, false}, Case{"straight path believed, much noise", 2, false}})
+  const int pairs = argc > 1 ? std::atoi(argv[1]) : 24;
+  for (const Case& setting :
+       {Case{"true path believed, no noise", 0, true}, Case{"straight path believed, no noise", 0, false}, Case{"true path believed, noise", 0.7, true},
+        Case{"straight path believed, noise", 0.7, false}, Case{"straight path believed, much noise", 2, false}})
     run(setting, pairs);
 }

@@ -46,6 +46,8 @@ echo; echo "bench: USBL calibration: how the noise is followed, and a circle tha
 if [ -x "$tools/backprojection_speed" ]; then
   echo; echo "bench: backprojection, by vector instructions, beside a plain loop in double; and factorised"
   "$tools/backprojection_speed" $((smoke == 1 ? 1 : 20))
+  echo; echo "bench: micronavigation, errors beside its standard deviations"
+  "$tools/micronavigation_accuracy" $((smoke == 1 ? 2 : 24))
 fi
 
 echo; echo "bench: rts beside batch"

@@ -14,11 +14,13 @@ using namespace ins;
 
 namespace {
 
-/// `noise` is of GPS and DVL; `gps_outages` are added to the scenario's.
+/// `noise` is of GPS, DVL and DPC; `gps_outages` are added to the scenario's, `dpc` goes over its section.
 LawInfo readLaw(YamlSection& item, Scenario& scenario) {
   std::string name;
   item.text("name", name);
-  if (item.has("noise")) scenario.sensor(Sensor::Gps).noise = scenario.sensor(Sensor::Dvl).noise = Scenario::readNoise(item, "noise");
+  scenario.readDpc(item.section("dpc"));
+  if (item.has("noise"))
+    scenario.sensor(Sensor::Gps).noise = scenario.sensor(Sensor::Dvl).noise = scenario.sensor(Sensor::Dpc).noise = Scenario::readNoise(item, "noise");
   for (const auto& outage : Scenario::readOutages(item, "gps_outages")) scenario.sensor(Sensor::Gps).outages.push_back(outage);
   item.finish();
   LawInfo law = lawInfo(name, scenario.sensor(Sensor::Gps).noise, {});

@@ -36,7 +36,8 @@ double power(const AlignedLines& lines, std::size_t channel) {
 double coherence(const AlignedLines& lines, int lag, int shift, int margin) {
   double sum = 0, x = 0, y = 0;
   int samples = 0;
-  for (int begin = margin; begin + kCoherentSamples + margin <= lines.samples; begin += kCoherentSamples, samples += kCoherentSamples) sum += correlation(lines, lag, begin, shift);
+  for (int begin = margin; begin + kCoherentSamples + margin <= lines.samples; begin += kCoherentSamples, samples += kCoherentSamples)
+    sum += correlation(lines, lag, begin, shift);
   for (const auto& [a, b] : pairsAtLag(static_cast<int>(lines.channels.size() / 2), lag)) {
     x += power(lines, a);
     y += power(lines, b);

@@ -23,8 +23,13 @@ class Displacement {
  public:
   Displacement(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar, const BeamCoherence& beam, const PingPose& first,
                const PingPose& second, const MicronavigationOptions& options)
-      : lines_(lines), line_(ping * static_cast<std::size_t>(sonar.receivers)), sonar_(sonar), beam_(beam), options_(options),
-        pair_(sonar, first, second, options), believed_(second.position) {
+      : lines_(lines),
+        line_(ping * static_cast<std::size_t>(sonar.receivers)),
+        sonar_(sonar),
+        beam_(beam),
+        options_(options),
+        pair_(sonar, first, second, options),
+        believed_(second.position) {
     realign();
   }
 
@@ -105,9 +110,7 @@ class Displacement {
   double middleRange() const { return 0.5 * (sonar_.near_range + sonar_.far_range); }
   void realign() { aligned_ = align(lines_, line_, sonar_, pair_); }
 
-  bool settled() const {
-    return (fit_.parameters.head<4>().array().abs() < 0.1 * fit_.covariance.diagonal().head<4>().array().sqrt()).all();
-  }
+  bool settled() const { return (fit_.parameters.head<4>().array().abs() < 0.1 * fit_.covariance.diagonal().head<4>().array().sqrt()).all(); }
 
   /// Moves the second pose by this on the track's axes [m], and turns its fore end towards the sight [rad].
   void move(const Eigen::Vector3d& step, double turn) {

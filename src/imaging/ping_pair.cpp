@@ -41,8 +41,8 @@ Eigen::Vector3d PingPair::displacement(double range) const {
   const std::size_t receivers = paths.size() / 2;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < receivers; ++i)
-    sum += phaseCentre(paths[receivers + i]) - phaseCentre(paths[i]) +
-           (paths[receivers + i].receiver_velocity - paths[i].receiver_velocity) * range / sound_speed;
+    sum +=
+        phaseCentre(paths[receivers + i]) - phaseCentre(paths[i]) + (paths[receivers + i].receiver_velocity - paths[i].receiver_velocity) * range / sound_speed;
   sum /= static_cast<double>(receivers);
   return {forward.dot(sum), across.dot(sum), down.dot(sum)};
 }

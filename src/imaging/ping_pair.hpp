@@ -14,11 +14,11 @@ using Complex = std::complex<double>;
 /// Where two pings are believed to be, and the straight track between them to which their echoes are moved. Ranges are from the track [m].
 struct PingPair {
   std::array<PingPose, 2> poses;
-  Eigen::Matrix3d C_local_body;                      ///< half-way between the two attitudes
-  Eigen::Vector3d origin, forward, across, down;     ///< of the track: middle of all phase centres, and its axes; local
-  double bottom = 0;                                 ///< [m]
-  std::vector<EchoPath> paths;                       ///< of the first ping's receivers, then of the second's
-  double sound_speed = 0;                            ///< [m/s]
+  Eigen::Matrix3d C_local_body;                   ///< half-way between the two attitudes
+  Eigen::Vector3d origin, forward, across, down;  ///< of the track: middle of all phase centres, and its axes; local
+  double bottom = 0;                              ///< [m]
+  std::vector<EchoPath> paths;                    ///< of the first ping's receivers, then of the second's
+  double sound_speed = 0;                         ///< [m/s]
 
   PingPair(const SonarDescription& sonar, const PingPose& first, const PingPose& second, const MicronavigationOptions& options);
 

@@ -12,8 +12,8 @@ namespace {
 
 using Covariance = Eigen::MatrixXcd;
 
-constexpr int kBlock = 64;                // samples over which geometry is constant
-constexpr int kTableSteps = 600;          // over three elements
+constexpr int kBlock = 64;               // samples over which geometry is constant
+constexpr int kTableSteps = 600;         // over three elements
 constexpr double kMostCoherence = 0.99;  // what interpolation and the model leave
 constexpr int kMaxIterations = 20;
 constexpr double kTolerance = 0.02;  // of the last step, in standard deviations
@@ -87,7 +87,8 @@ class SpeckleModel {
 double traceOfProduct(const Covariance& a, const Covariance& b) { return a.cwiseProduct(b.transpose()).sum().real(); }
 
 /// Adds a block's score and Fisher information, its power taken as unknown.
-void accumulate(const SpeckleModel& model, const Block& block, double cells, const SpeckleParameters& p, SpeckleParameters& score, Eigen::MatrixXd& information) {
+void accumulate(const SpeckleModel& model, const Block& block, double cells, const SpeckleParameters& p, SpeckleParameters& score,
+                Eigen::MatrixXd& information) {
   const Eigen::Index channels = block.along.size();
   const Covariance S = model.covariance(block, p);
   const Covariance inverse = S.llt().solve(Covariance::Identity(channels, channels));

@@ -12,7 +12,7 @@ namespace sas_motion::imaging {
 class BeamCoherence {
  public:
   explicit BeamCoherence(const SonarDescription& sonar);
-  double at(double distance) const { return read(coherence_, distance); }      ///< [m]
+  double at(double distance) const { return read(coherence_, distance); }         ///< [m]
   double squaredSine(double distance) const { return read(squares_, distance); }  ///< the same transform of the power times the squared sine of the angle
   double spread() const { return spread_; }  ///< standard deviation of the sine of the angle from broadside, weighted with power
 

@@ -12,12 +12,18 @@ namespace {
 
 double markovDensity(double sigma, double time) { return 2 * sigma * sigma / time; }
 
+/// Velocity over the ground of a place on the body against the INS; body.
+Vector<3> leverVelocity(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& lever_body) {
+  const Vector<3> over_ground = rate_body - ins.q_nav_body.conjugate() * earth::rotationRate(ins.latitude);
+  return over_ground.cross(lever_body);
+}
+
 Vector<3> positionOf(const NavigationState& state) { return {state.longitude, state.latitude, state.height}; }
 
 }  // namespace
 
 const char* sensorName(Sensor sensor) {
-  constexpr std::array<const char*, kSensors> names{"gps", "dvl", "depth"};
+  constexpr std::array<const char*, kSensors> names{"gps", "dvl", "depth", "dpc"};
   return names[static_cast<std::size_t>(sensor)];
 }
 
@@ -127,8 +133,7 @@ LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const 
 }
 
 Vector<3> ErrorModel::velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const {
-  const Vector<3> over_ground = rate_body - ins.q_nav_body.conjugate() * earth::rotationRate(ins.latitude);
-  return velocity_dvl_body - over_ground.cross(parameters_.dvl_lever_body);
+  return velocity_dvl_body - leverVelocity(ins, rate_body, parameters_.dvl_lever_body);
 }
 
 LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body,
@@ -152,6 +157,19 @@ LinearMeasurement<kStates, 1> ErrorModel::depth(const NavigationState& ins, doub
   z.H.block<1, 3>(0, kAttitude) = kMilliradian * crossMatrix(lever).row(2);
   z.R(0, 0) = parameters_.depth_white * parameters_.depth_white;
   z.innovation = Vector<1>(ins.height + lever.z() - height) - z.H * mean;
+  return z;
+}
+
+LinearMeasurement<kStates, 2> ErrorModel::dpc(const NavigationState& ins, const Vector<3>& rate_body, const ArrayVelocity& array, const Errors& mean) const {
+  LinearMeasurement<kStates, 2> z;
+  const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
+  Matrix<2, 3> axes;
+  axes << Vector<3>::UnitY().transpose(), array.sight_body.transpose();
+  z.H.setZero();
+  z.H.block<2, 3>(0, kVelocity) = axes * C_body_nav;
+  z.H.block<2, 3>(0, kAttitude) = -kMilliradian * axes * C_body_nav * crossMatrix(ins.velocity_nav);
+  z.R = array.variance.asDiagonal();
+  z.innovation = axes * (C_body_nav * ins.velocity_nav + leverVelocity(ins, rate_body, parameters_.dpc_lever_body)) - array.velocity - z.H * mean;
   return z;
 }
 

@@ -122,6 +122,7 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
       velocity_body_ = model_.velocityOfIns(ins, ins_.rate_body(), reading.velocity_body);
       break;
     case Sensor::Depth: update(model_.depth(ins, reading.fix.height, belief_.mean)); break;
+    case Sensor::Dpc: update(model_.dpc(ins, ins_.rate_body(), reading.array, belief_.mean)); break;
   }
   if (options_.feedback) feedBack();
 }

@@ -67,6 +67,13 @@ TEST(InsScenario, ReadsItsFileAndRefusesWhatItDoesNotKnow) {
   refused("{imu: {rate: 1}}");
   refused("{start: [89, 0, 0]}");
   refused("{waves: {roll: {amplitude: 1}}}");
+  refused("{dpc: {rate: -1}}");
+  refused("{dpc: {side: aft}}");
+  const auto dpc = ins::Scenario::read(YamlSection::fromText("{dpc: {rate: 4, side: port, depression_deg: 30, lever_arm: [1, 2, 3]}}", "test"));
+  EXPECT_DOUBLE_EQ(dpc.sensor(ins::Sensor::Dpc).rate, 4);
+  EXPECT_TRUE(dpc.dpc.sightBody().isApprox(Vector<3>(-std::cos(kPi / 6), 0, -0.5)));
+  EXPECT_EQ(dpc.parameters.dpc_lever_body, Vector<3>(1, 2, 3));
+  EXPECT_EQ(scenario.sensor(ins::Sensor::Dpc).rate, 0) << "absent unless asked for";
 }
 
 }  // namespace

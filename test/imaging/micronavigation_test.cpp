@@ -119,8 +119,7 @@ TEST(Micronavigation, LooksToStarboardAsToPort) {
   for (auto& scatterer : scene.scatterers) scatterer.position.y() *= -1;
   MicronavigationOptions options;
   options.starboard = true;
-  const auto found =
-      micronavigate(compressedEchoes(sonar, echoPaths(sonar, poses), scene, {}, RangeFilter::Matched), 0, sonar, poses[0], poses[1], options);
+  const auto found = micronavigate(compressedEchoes(sonar, echoPaths(sonar, poses), scene, {}, RangeFilter::Matched), 0, sonar, poses[0], poses[1], options);
   ASSERT_EQ(found.verdict, MicronavigationVerdict::Valid);
   EXPECT_LT(found.sight_body.y(), -0.9);
   EXPECT_LT(found.sight_body.z(), -0.3);
