@@ -56,6 +56,7 @@ void withMeasurement(const ErrorModel& model, const NavigationState& ins, const 
     case Sensor::Gps: return visit(model.gps(ins, reading.fix, mean));
     case Sensor::Dvl: return visit(model.dvl(ins, rate_body, reading.velocity_body, mean));
     case Sensor::Depth: return visit(model.depth(ins, reading.fix.height, mean));
+    case Sensor::Dpc: return visit(model.dpc(ins, rate_body, reading.array, mean));
   }
 }
 
