@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "campaign/suites.hpp"
 #include "smoothers/factor_graph/ins_runs.hpp"
 #include "support.hpp"
 
@@ -188,6 +189,23 @@ TEST(InsSmoother, SaysWhyThereIsNoAnswer) {
     EXPECT_TRUE(outputOf(*estimator, recording).solutions.empty()) << name;
     EXPECT_NE(estimator->failure(), "") << name;
   }
+}
+
+TEST(InsSmoother, CampaignsScoreItBesideTheFilters) {
+  const auto suite = sas_motion::testing::suiteOf(
+      "{runs: 1, campaigns: [{name: ins, system: ins_gps_dvl, scenario: " SAS_MOTION_SOURCE_DIR
+      "/config/scenarios/ins/survey.yaml, duration: 60, skip: 20, estimators: [robust_ckf27, batch, fixed_lag], laws: [{name: bad, noise: {law: contaminated, "
+      "epsilon: 0.1, K: 30}}]}]}",
+      makeAnyEstimator);
+  const auto reports = suite.campaigns[0]->run(0, 1);
+  ASSERT_EQ(reports.size(), 3U);
+  for (const auto& report : reports) {
+    EXPECT_EQ(report.samples, reports.front().samples) << report.estimator;
+    EXPECT_FALSE(report.nees.empty()) << report.estimator;
+    EXPECT_GT(*report.recall, 0.7) << report.estimator;
+    EXPECT_GT(*report.precision, 0.8) << report.estimator;
+  }
+  EXPECT_LT(*reports[1].aperture_across, 0.1 * *reports[0].aperture_across) << "no fix bends the smoother's way";
 }
 
 TEST(InsSmoother, GoesOnAfterAPause) {
