@@ -51,7 +51,8 @@ gtsam::SharedNoiseModel inertialNoise(const ErrorModel& model, const InertialInt
 
 /// Calls `visit` with the linear measurement of a reading.
 template <class Visit>
-void withMeasurement(const ErrorModel& model, const NavigationState& ins, const Aiding& reading, const Vector<3>& rate_body, const Errors& mean, const Visit& visit) {
+void withMeasurement(const ErrorModel& model, const NavigationState& ins, const Aiding& reading, const Vector<3>& rate_body, const Errors& mean,
+                     const Visit& visit) {
   switch (reading.sensor) {
     case Sensor::Gps: return visit(model.gps(ins, reading.fix, mean));
     case Sensor::Dvl: return visit(model.dvl(ins, rate_body, reading.velocity_body, mean));

@@ -134,9 +134,11 @@ TEST(InsSmoother, NowhereJumps) {
   const Output output = outputOf("batch", scenario, simulate(scenario, trajectory, 5));
   for (std::size_t k = 1; k < output.solutions.size(); ++k) {
     const auto &a = output.solutions[k - 1], &b = output.solutions[k];
-    const Vector<3> moved = displacement(a.state, b.state), meant = displacement(trajectory.at(secondsBetween(0, a.stamp)).state, trajectory.at(secondsBetween(0, b.stamp)).state);
-    const Vector<3> drift = 0.01 * 0.5 * (a.state.velocity_nav - trajectory.at(secondsBetween(0, a.stamp)).state.velocity_nav + b.state.velocity_nav -
-                                          trajectory.at(secondsBetween(0, b.stamp)).state.velocity_nav);
+    const Vector<3> moved = displacement(a.state, b.state),
+                    meant = displacement(trajectory.at(secondsBetween(0, a.stamp)).state, trajectory.at(secondsBetween(0, b.stamp)).state);
+    const Vector<3> drift = 0.01 * 0.5 *
+                            (a.state.velocity_nav - trajectory.at(secondsBetween(0, a.stamp)).state.velocity_nav + b.state.velocity_nav -
+                             trajectory.at(secondsBetween(0, b.stamp)).state.velocity_nav);
     EXPECT_LT((moved - meant - drift).norm(), 1e-5) << "at " << secondsBetween(0, b.stamp) << " s";
   }
 }
@@ -172,7 +174,9 @@ TEST(InsSmoother, StandsWhatSensorsReallySend) {
     const Output output = outputOf(*estimator, recording);
     EXPECT_EQ(estimator->failure(), "") << name;
     EXPECT_EQ(output.audits.size(), recording.aiding.size()) << name;
-    const auto count = [&](Verdict verdict) { return std::count_if(output.audits.begin(), output.audits.end(), [&](const Audit& a) { return a.verdict == verdict; }); };
+    const auto count = [&](Verdict verdict) {
+      return std::count_if(output.audits.begin(), output.audits.end(), [&](const Audit& a) { return a.verdict == verdict; });
+    };
     EXPECT_EQ(count(Verdict::Stale), 1) << name;
     EXPECT_EQ(output.solutions.size(), recording.imu.size() - 2) << name << ": one for each reading that is believed, but the first";
     for (const auto& solution : output.solutions) EXPECT_TRUE(solution.state.velocity_nav.allFinite() && solution.covariance->allFinite()) << name;
