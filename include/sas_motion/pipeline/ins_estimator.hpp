@@ -24,7 +24,7 @@ struct FixedLag {
 struct Config {
   Parameters parameters;
   Mechanisation::Options imu;
-  SmootherOptions batch;
+  SmootherOptions batch{Loss(LossKind::Huber), 100, 1e-7};
   FixedLag fixed_lag;
 };
 

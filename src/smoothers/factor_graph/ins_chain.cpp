@@ -16,7 +16,10 @@ NavigatorOptions optionsOf(const Config& config) {
 }  // namespace
 
 InsChain::InsChain(const Config& config, const NavigationState& start, Stamp stamp)
-    : filter_(RobustKalmanFilter<kStates>({}), config.parameters, start, stamp, optionsOf(config)), ins_(start, stamp, config.imu), stop_(stopHere()), way_{ins_} {}
+    : filter_(RobustKalmanFilter<kStates>({}), config.parameters, start, stamp, optionsOf(config)),
+      ins_(start, stamp, config.imu),
+      stop_(stopHere()),
+      way_{ins_} {}
 
 ImuVerdict InsChain::add(const ImuReading& reading, std::vector<Audit>& audits, std::vector<Stop>& stops) {
   const ImuStep step = filter_.add(reading);

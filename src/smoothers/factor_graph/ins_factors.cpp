@@ -51,7 +51,8 @@ gtsam::SharedNoiseModel inertialNoise(const ErrorModel& model, const InertialInt
 
 /// Calls `visit` with the linear measurement of a reading.
 template <class Visit>
-void withMeasurement(const ErrorModel& model, const NavigationState& ins, const Aiding& reading, const Vector<3>& rate_body, const Errors& mean, const Visit& visit) {
+void withMeasurement(const ErrorModel& model, const NavigationState& ins, const Aiding& reading, const Vector<3>& rate_body, const Errors& mean,
+                     const Visit& visit) {
   switch (reading.sensor) {
     case Sensor::Gps: return visit(model.gps(ins, reading.fix, mean));
     case Sensor::Dvl: return visit(model.dvl(ins, rate_body, reading.velocity_body, mean));
@@ -85,18 +86,24 @@ gtsam::KeyVector dvlKeys(const Parameters& parameters) {
 
 InertialFactor::InertialFactor(gtsam::Key from, gtsam::Key to, const ModelPtr& model, const IntervalPtr& interval, const Node& start,
                                const Constants& constants)
-    : NoiseModelFactor3(inertialNoise(*model, *interval, start, constants), from, to, kConstantsKey), model_(model), interval_(interval) {}
+    : NoiseModelFactor3(inertialNoise(*model, *interval, start, constants), from, to, kConstantsKey),
+      model_(model),
+      interval_(interval),
+      decay_(part(model->transitionMatrix({start.state, Vector<3>::Zero(), Matrix<3>::Identity()}, interval->duration), kNodeIndices, kNodeIndices)
+                 .diagonal()
+                 .tail<9>()) {}
 
 gtsam::Vector InertialFactor::evaluateError(const Node& from, const Node& to, const Constants& constants, boost::optional<gtsam::Matrix&> H_from,
                                             boost::optional<gtsam::Matrix&> H_to, boost::optional<gtsam::Matrix&> H_constants) const {
   const Integrated way = integrate(*interval_, from, constants);
-  const ErrorMatrix F = model_->transitionMatrix(way.motion, interval_->duration);
-  const Matrix<kNodeStates> Phi = part(F, kNodeIndices, kNodeIndices);
-  if (H_from) *H_from = Phi * signs().asDiagonal();
+  if (H_from || H_constants) {
+    const ErrorMatrix F = model_->transitionMatrix(way.motion, interval_->duration);
+    if (H_from) *H_from = part(F, kNodeIndices, kNodeIndices) * signs().asDiagonal();
+    if (H_constants) *H_constants = -part(F, kNodeIndices, kConstantIndices);
+  }
   if (H_to) *H_to = -gtsam::Matrix(signs().asDiagonal());
-  if (H_constants) *H_constants = -part(F, kNodeIndices, kConstantIndices);
   Vector<kNodeStates> error = to.localCoordinates({way.end, to.wandering});
-  error.tail<9>() = to.wandering - Phi.bottomRightCorner<9, 9>() * from.wandering;
+  error.tail<9>() = to.wandering - decay_.cwiseProduct(from.wandering);
   return error;
 }
 

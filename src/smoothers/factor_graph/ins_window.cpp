@@ -20,6 +20,7 @@ using Factorization = gtsam::Marginals::Factorization;
 /// What a solver leaves behind.
 struct Optimum {
   gtsam::Values values;
+  boost::shared_ptr<gtsam::GaussianBayesNet> net;  // at the values
   double cost = 0;
   std::string failure;
 };
@@ -102,23 +103,21 @@ void InsWindow::add(const InsChain::Stop& stop) {
 std::string InsWindow::solve(int max_iterations, double tolerance) {
   const Optimum optimum = guarded(Optimum(), [&](Factorization factorization) {
     Optimum found;
+    const bool by_qr = factorization == gtsam::Marginals::QR;
     auto params = levenbergMarquardt(max_iterations, tolerance, factorization);
-    params.linearSolverType = factorization == gtsam::Marginals::QR ? gtsam::NonlinearOptimizerParams::SEQUENTIAL_QR : gtsam::NonlinearOptimizerParams::SEQUENTIAL_CHOLESKY;
+    params.linearSolverType = by_qr ? gtsam::NonlinearOptimizerParams::SEQUENTIAL_QR : gtsam::NonlinearOptimizerParams::SEQUENTIAL_CHOLESKY;
     params.ordering = gtsam::Ordering::Natural(graph_);
     gtsam::LevenbergMarquardtOptimizer optimizer(graph_, values_, params);
     found.values = optimizer.optimize();
     found.cost = optimizer.error();
+    const gtsam::GaussianFactorGraph::Eliminate eliminate = by_qr ? gtsam::GaussianFactorGraph::Eliminate(gtsam::EliminateQR) : gtsam::EliminatePreferCholesky;
+    found.net = graph_.linearize(found.values)->eliminateSequential(*params.ordering, eliminate);
     return found;
   });
   if (!optimum.failure.empty()) return optimum.failure;
   values_ = optimum.values;
-  addCovariances();
+  visitCovariances(*optimum.net, [&](gtsam::Key key, const gtsam::Matrix& P) { places_[key - places_.front().key].covariance = inSiUnits(P); });
   return "";
-}
-
-void InsWindow::addCovariances() {
-  const auto net = graph_.linearize(values_)->eliminateSequential(gtsam::Ordering::Natural(graph_), gtsam::EliminateQR);
-  visitCovariances(*net, [&](gtsam::Key key, const gtsam::Matrix& covariance) { places_[key - places_.front().key].covariance = inSiUnits(covariance); });
 }
 
 void InsWindow::forget(std::size_t count) {

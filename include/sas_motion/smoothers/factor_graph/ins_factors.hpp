@@ -28,6 +28,7 @@ class InertialFactor final : public gtsam::NoiseModelFactor3<Node, Node, Constan
  private:
   ModelPtr model_;
   IntervalPtr interval_;
+  Vector<9> decay_;  // of what wanders, over the interval
 };
 
 /// One scalar row of a reading of a sensor that aids under a loss: the innovation of ErrorModel. A factor a row, since GTSAM gives a vector

@@ -60,8 +60,6 @@ class InsWindow {
     Matrix<9> covariance = Matrix<9>::Zero();
   };
 
-  void addCovariances();
-
   ModelPtr model_;
   Loss loss_;
   gtsam::NonlinearFactorGraph graph_;
