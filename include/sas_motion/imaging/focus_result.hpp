@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sas_motion/imaging/focus_scene.hpp"
-#include "sas_motion/imaging/point_target.hpp"
+#include "sas_motion/imaging/focus_bench.hpp"
 #include "sas_motion/imaging/track_window.hpp"
-#include "sas_motion/imaging/trajectory_error.hpp"
 
-namespace sas_motion {
+namespace sas_motion::imaging {
 
 /// The stretch of the track that is focused.
 struct FocusWindow {
@@ -19,13 +17,13 @@ struct FocusWindow {
   double speed = 0;                ///< mean over ground [m/s]
   double ping_rate = 0;            ///< [Hz]
   std::size_t pings = 0;
-  imaging::ApertureFrame frame;
+  ApertureFrame frame;
 };
 
 /// How sharp one image is.
 struct FocusImage {
   std::string stem;                                   ///< name of its files
-  std::vector<imaging::PointTargetMeasures> targets;  ///< in the order of the settings
+  std::vector<PointTargetMeasures> targets;  ///< in the order of the settings
   double whole_image_islr = 0;                        ///< about the first target [dB]
   double entropy = 0;                                 ///< [nat]
 };
@@ -33,21 +31,20 @@ struct FocusImage {
 /// One trajectory and its images.
 struct FocusedTrajectory {
   std::string name, topic;
-  imaging::ApertureTrajectoryError error;  ///< towards the first target
+  ApertureTrajectoryError error;  ///< towards the first target
   FocusImage image;
   std::optional<FocusImage> autofocused;
 };
 
 struct FocusResult {
-  std::string bag;
-  imaging::FocusSettings settings;
+  std::string bag;  ///< or what else the trajectories come from
+  FocusSettings settings;
+  std::vector<Eigen::Vector3d> places;  ///< of the targets, in the frame of the aperture [m]
   FocusWindow window;
   std::vector<FocusedTrajectory> trajectories;  ///< truth first
 };
 
-/// The measures of all trajectories (JSON).
-std::string focusDocument(const FocusResult& result);
-/// The same in short, for a terminal.
-std::string focusTable(const FocusResult& result);
+/// Focuses and measures the image along these poses and writes it as FOLDER/NAME.npy; as FOLDER/NAME_autofocus.npy also what autofocus makes of it.
+FocusedTrajectory focusAlong(FocusBench& bench, const std::vector<PingPose>& poses, const std::string& folder, const std::string& name, bool autofocus);
 
-}  // namespace sas_motion
+}  // namespace sas_motion::imaging
