@@ -6,7 +6,8 @@ namespace sas_motion::imaging {
 namespace {
 
 /// Errors of a cut beside the same cut of the error-free image.
-void addCut(Named<double>& measures, const std::string& prefix, const std::string& name, const imaging::CutMeasures& cut, const imaging::CutMeasures& reference) {
+void addCut(Named<double>& measures, const std::string& prefix, const std::string& name, const imaging::CutMeasures& cut,
+            const imaging::CutMeasures& reference) {
   measures.emplace_back(prefix + "pslr_" + name, cut.pslr - reference.pslr);
   measures.emplace_back(prefix + "islr_" + name, cut.islr - reference.islr);
   measures.emplace_back(prefix + "irw_" + name, cut.irw / reference.irw);
@@ -27,7 +28,8 @@ void addImage(Named<double>& measures, const std::string& prefix, const FocusedI
 Named<double> imageMeasures(FocusBench& bench, const std::vector<PingPose>& poses, double wavelength) {
   const auto error = bench.error(poses);
   Named<double> measures{{"speed", error.along.slope}};
-  for (const auto& [name, rms] : {std::pair("path", error.path.rms), std::pair("line_of_sight", error.line_of_sight.rms), std::pair("along", error.along.rms)}) {
+  for (const auto& [name, rms] :
+       {std::pair("path", error.path.rms), std::pair("line_of_sight", error.line_of_sight.rms), std::pair("along", error.along.rms)}) {
     measures.emplace_back(name, rms);
     measures.emplace_back(std::string(name) + "_wavelengths", rms / wavelength);
   }

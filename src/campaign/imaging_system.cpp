@@ -140,7 +140,8 @@ class ImagingSystem final : public System {
   void complete(EstimatorReport& report, const std::string& name, const Estimate& estimate, const std::vector<double>& positions, std::size_t readings) const {
     report.estimator = name;
     report.samples = positions.size();
-    report.diverged = positions.empty() || !estimate.failure.empty() || !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
+    report.diverged =
+        positions.empty() || !estimate.failure.empty() || !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
     if (!positions.empty()) report.errors.emplace_back("position", towfish::summarize(positions));
     report.microseconds = 1e6 * estimate.seconds / static_cast<double>(std::max<std::size_t>(1, readings));
   }

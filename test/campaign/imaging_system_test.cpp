@@ -16,8 +16,9 @@ using testing::suiteOf;
 const std::string kConfig = SAS_MOTION_SOURCE_DIR "/config/";
 
 std::string imagingSuite(const std::string& estimators, const std::string& more = "") {
-  return "{runs: 1, campaigns: [{name: images, system: imaging, scenario: " + kConfig + "scenarios/ins/survey.yaml, duration: 200, skip: 120, windows: 2, config: " +
-         kConfig + "focus_survey.yaml, estimators: " + estimators + ", laws: [{name: clean}]" + more + "}]}";
+  return "{runs: 1, campaigns: [{name: images, system: imaging, scenario: " + kConfig +
+         "scenarios/ins/survey.yaml, duration: 200, skip: 120, windows: 2, config: " + kConfig + "focus_survey.yaml, estimators: " + estimators +
+         ", laws: [{name: clean}]" + more + "}]}";
 }
 
 /// The measures of each window, by estimator.
@@ -62,7 +63,8 @@ TEST(ImagingSystem, SaysWhatIsWrong) {
   };
   refused(imagingSuite("[ckf28]"), "ckf28");
   refused(imagingSuite("[]"), "estimators");
-  refused("{campaigns: [{name: images, system: imaging, scenario: " + kConfig + "scenarios/ins/survey.yaml, estimators: [ins], laws: [{name: clean}]}]}", "config");
+  refused("{campaigns: [{name: images, system: imaging, scenario: " + kConfig + "scenarios/ins/survey.yaml, estimators: [ins], laws: [{name: clean}]}]}",
+          "config");
   refused("{campaigns: [{name: images, system: imaging, scenario: " + kConfig + "scenarios/ins/survey.yaml, config: " + kConfig +
               "focus_survey.yaml, duration: 122, skip: 120, estimators: [ins], laws: [{name: clean}]}]}",
           "duration");

@@ -22,10 +22,10 @@ struct FocusWindow {
 
 /// How sharp one image is.
 struct FocusImage {
-  std::string stem;                                   ///< name of its files
+  std::string stem;                          ///< name of its files
   std::vector<PointTargetMeasures> targets;  ///< in the order of the settings
-  double whole_image_islr = 0;                        ///< about the first target [dB]
-  double entropy = 0;                                 ///< [nat]
+  double whole_image_islr = 0;               ///< about the first target [dB]
+  double entropy = 0;                        ///< [nat]
 };
 
 /// One trajectory and its images.
