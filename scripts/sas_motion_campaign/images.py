@@ -59,7 +59,7 @@ COSTS_CAPTION = 'What an aperture error costs: images of all estimators and laws
 def pair(found, unit):
     """Returns a cell: median / quantile."""
     digits = DIGITS[unit]
-    return '-' if not found or found['median'] is None else f'{found["median"]:.{digits}f} / {found["q90"]:.{digits}f}'
+    return '-' if not found or found['median'] is None else ' / '.join(f'{round(found[key], digits) + 0:.{digits}f}' for key in ('median', 'q90'))  # + 0: no -0.0
 
 
 def image_rows(law, estimators):

@@ -108,8 +108,10 @@ class ImagingSystem final : public System {
 
   Estimate errorFree(const Recording& recording) const {
     Estimate result{emptyTracks(), "", 0};
-    for (const auto& reading : recording.imu)
-      for (auto& track : result.tracks) track.add(reading.stamp, trajectory_.at(secondsBetween(0, reading.stamp)).state);
+    for (const auto& reading : recording.imu) {
+      const NavigationState truth = trajectory_.at(secondsBetween(0, reading.stamp)).state;
+      for (auto& track : result.tracks) track.add(reading.stamp, truth);
+    }
     return result;
   }
 
