@@ -27,6 +27,7 @@ else
   campaign survey 100     # the asynchronous survey
   campaign eight_laws 1000
   campaign asynchronous 100
+  campaign imaging 20     # the image as judge
   campaign usbl 100
   campaign usbl_lock_in 1000
 fi

@@ -33,7 +33,8 @@ std::vector<PingPose> truePoses(const Aperture& aperture, const Trajectory& traj
   std::vector<PingPose> poses;
   for (const Stamp ping : aperture.pings) {
     const double time = secondsBetween(0, ping);
-    const TimedPose now = poseIn(aperture.map, ping, trajectory.at(time).state), later = poseIn(aperture.map, ping, trajectory.at(time + aperture.interval).state);
+    const TimedPose now = poseIn(aperture.map, ping, trajectory.at(time).state),
+                    later = poseIn(aperture.map, ping, trajectory.at(time + aperture.interval).state);
     poses.push_back({now.position, now.q_local_body.toRotationMatrix(), (later.position - now.position) / aperture.interval});
   }
   return poses;

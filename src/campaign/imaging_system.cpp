@@ -6,10 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "imaging_measures.hpp"
 #include "imaging_survey.hpp"
 #include "ins_campaign.hpp"
 #include "sas_motion/config/focus_config.hpp"
-#include "sas_motion/imaging/focus_bench.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "systems.hpp"
 
@@ -18,8 +18,7 @@ namespace {
 
 using namespace ins;
 using imaging::FocusBench;
-using imaging::FocusedImage;
-using imaging::PingPose;
+using imaging::FocusResult;
 
 const std::string kErrorFree = "error_free";  // truth at the stamps of the inertial unit: what lies between these costs
 
@@ -29,40 +28,6 @@ struct Estimate {
   std::string failure;
   double seconds = 0;  // of CPU
 };
-
-/// Errors of a cut beside the same cut of the error-free image.
-void addCut(Named<double>& measures, const std::string& prefix, const std::string& name, const imaging::CutMeasures& cut, const imaging::CutMeasures& reference) {
-  measures.emplace_back(prefix + "pslr_" + name, cut.pslr - reference.pslr);
-  measures.emplace_back(prefix + "islr_" + name, cut.islr - reference.islr);
-  measures.emplace_back(prefix + "irw_" + name, cut.irw / reference.irw);
-}
-
-/// Of the first target.
-void addImage(Named<double>& measures, const std::string& prefix, const FocusedImage& image, const FocusedImage& error_free) {
-  const auto &target = image.targets.front(), &reference = error_free.targets.front();
-  if (!target.complete) return;
-  addCut(measures, prefix, "along", target.along, reference.along);
-  addCut(measures, prefix, "range", target.range, reference.range);
-  measures.emplace_back(prefix + "peak_loss", target.peak_loss);
-  measures.emplace_back(prefix + "peak_error", target.peak_error);
-}
-
-Named<double> measuresOf(FocusBench& bench, const std::vector<PingPose>& poses) {
-  const auto error = bench.error(poses);
-  Named<double> measures{{"path", error.path.rms}, {"line_of_sight", error.line_of_sight.rms}, {"along", error.along.rms}, {"speed", error.along.slope}};
-  const FocusedImage focused = bench.focus(poses);
-  addImage(measures, "", focused, bench.errorFree());
-  addImage(measures, "autofocus_", bench.autofocus(focused, poses), bench.errorFree());
-  addImage(measures, "compensated_", bench.compensate(poses), bench.errorFree());
-  return measures;
-}
-
-/// Of the middle of the aperture.
-double horizontalError(const std::vector<PingPose>& estimate, const std::vector<PingPose>& truth) {
-  Eigen::Vector2d error = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < truth.size(); ++i) error += (estimate[i].position - truth[i].position).head<2>() / static_cast<double>(truth.size());
-  return error.norm();
-}
 
 /// Surveys whose judge is the image: what a synthetic aperture sonar sees on their lines with each estimate of its track.
 class ImagingSystem final : public System {
@@ -84,8 +49,7 @@ class ImagingSystem final : public System {
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
     const Recording recording = simulate(scenarios_[law], trajectory_, seed);
-    std::vector<Estimate> estimates;
-    for (const auto& name : estimators) estimates.push_back(name == kErrorFree ? errorFree(recording) : estimate(name, scenarios_[law], recording));
+    const auto estimates = estimatesOf(scenarios_[law], recording);
     std::vector<std::vector<double>> positions(estimators.size());
     std::vector<EstimatorReport> reports(estimators.size());
     for (std::size_t window = 0; window < apertures_.size(); ++window) {
@@ -94,12 +58,25 @@ class ImagingSystem final : public System {
         reports[i].windows.push_back({{"start", apertures_[window].start}});
         const auto poses = estimates[i].tracks[window].poses(settings_.sonar.altitude);
         if (!poses) continue;
-        positions[i].push_back(horizontalError(*poses, apertures_[window].truth));
-        for (const auto& measure : measuresOf(bench, *poses)) reports[i].windows.back().push_back(measure);
+        positions[i].push_back(imaging::horizontalError(*poses, apertures_[window].truth));
+        for (const auto& measure : imaging::imageMeasures(bench, *poses, settings_.sonar.wavelength())) reports[i].windows.back().push_back(measure);
       }
     }
     for (std::size_t i = 0; i < estimators.size(); ++i) complete(reports[i], estimators[i], estimates[i], positions[i], recording.aiding.size());
     return reports;
+  }
+
+  std::optional<FocusResult> images(std::size_t law, std::uint64_t seed, const std::string& folder) const override {
+    const Aperture& aperture = apertures_.front();
+    FocusResult result{title + ", " + laws[law].name, settings_, imaging::targetPlaces(settings_), windowOf(aperture), {}};
+    FocusBench bench(settings_, aperture.times, aperture.truth, 1);
+    result.trajectories.push_back(focusAlong(bench, aperture.truth, folder, "truth", false));
+    const auto estimates = estimatesOf(scenarios_[law], simulate(scenarios_[law], trajectory_, seed));
+    for (std::size_t i = 0; i < estimators.size(); ++i) {
+      const auto poses = estimates[i].tracks.front().poses(settings_.sonar.altitude);
+      if (estimators[i] != kErrorFree && poses) result.trajectories.push_back(focusAlong(bench, *poses, folder, estimators[i], false));
+    }
+    return result;
   }
 
   Named<Trace> trace(std::size_t, std::uint64_t) const override { return {}; }
@@ -113,6 +90,17 @@ class ImagingSystem final : public System {
     return config;
   }
 
+  static imaging::FocusWindow windowOf(const Aperture& aperture) {
+    const double duration = aperture.times.back(), length = (aperture.truth.back().position - aperture.truth.front().position).head<2>().norm();
+    return {aperture.start, duration, length / duration, static_cast<double>(aperture.times.size() - 1) / duration, aperture.times.size(), aperture.frame};
+  }
+
+  std::vector<Estimate> estimatesOf(const Scenario& scenario, const Recording& recording) const {
+    std::vector<Estimate> estimates;
+    for (const auto& name : estimators) estimates.push_back(name == kErrorFree ? errorFree(recording) : estimate(name, scenario, recording));
+    return estimates;
+  }
+
   std::vector<ApertureTrack> emptyTracks() const {
     std::vector<ApertureTrack> tracks;
     for (const auto& aperture : apertures_) tracks.emplace_back(aperture, settings_.aperture.longest_gap);
@@ -121,8 +109,10 @@ class ImagingSystem final : public System {
 
   Estimate errorFree(const Recording& recording) const {
     Estimate result{emptyTracks(), "", 0};
-    for (const auto& reading : recording.imu)
-      for (auto& track : result.tracks) track.add(reading.stamp, trajectory_.at(secondsBetween(0, reading.stamp)).state);
+    for (const auto& reading : recording.imu) {
+      const NavigationState truth = trajectory_.at(secondsBetween(0, reading.stamp)).state;
+      for (auto& track : result.tracks) track.add(reading.stamp, truth);
+    }
     return result;
   }
 
@@ -153,7 +143,8 @@ class ImagingSystem final : public System {
   void complete(EstimatorReport& report, const std::string& name, const Estimate& estimate, const std::vector<double>& positions, std::size_t readings) const {
     report.estimator = name;
     report.samples = positions.size();
-    report.diverged = positions.empty() || !estimate.failure.empty() || !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
+    report.diverged =
+        positions.empty() || !estimate.failure.empty() || !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
     if (!positions.empty()) report.errors.emplace_back("position", towfish::summarize(positions));
     report.microseconds = 1e6 * estimate.seconds / static_cast<double>(std::max<std::size_t>(1, readings));
   }

@@ -8,12 +8,11 @@
 
 #include <filesystem>
 
+#include "focus_document.hpp"
 #include "focus_window.hpp"
 #include "main_guard.hpp"
 #include "progress.hpp"
 #include "sas_motion/config/focus_config.hpp"
-#include "sas_motion/imaging/focus_bench.hpp"
-#include "sas_motion/imaging/image_file.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 
 namespace {
@@ -27,21 +26,6 @@ struct Options {
   int jobs = 1;
   bool autofocus = false, figures = true;
 };
-
-FocusImage written(const FocusedImage& focused, const std::string& folder, const std::string& stem) {
-  makeFolder(folder);
-  writeImage(folder + "/" + stem, focused.image);
-  return {stem, focused.targets, focused.whole_image_islr, focused.entropy};
-}
-
-/// Focuses, measures and writes the image along one trajectory.
-FocusedTrajectory focusAlong(const RecordedTrajectory& trajectory, const std::vector<PingPose>& poses, FocusBench& bench, const Options& options) {
-  FocusedTrajectory result{trajectory.name, trajectory.topic, bench.error(poses), {}, std::nullopt};
-  const FocusedImage focused = bench.focus(poses);
-  result.image = written(focused, options.out, trajectory.name);
-  if (options.autofocus) result.autofocused = written(bench.autofocus(focused, poses), options.out, trajectory.name + "_autofocus");
-  return result;
-}
 
 /// By the script beside this tool, which reads what stands in the folder.
 void drawFigures(const std::string& folder) {
@@ -62,12 +46,14 @@ void run(const Options& options) {
   const auto trajectories = readTrajectories(options.bag, options.trajectories);
   const FocusPings pings = choosePings(options.bag, trajectories, result.settings);
   result.window = pings.window;
+  result.places = targetPlaces(result.settings);
   {
     Progress progress("focus", static_cast<double>(trajectories.size() + 1), 0);
     FocusBench bench(result.settings, pings.times, pings.poses.front(), options.jobs);
     progress.advance(1);
     for (std::size_t i = 0; i < trajectories.size(); ++i) {
-      result.trajectories.push_back(focusAlong(trajectories[i], pings.poses[i], bench, options));
+      result.trajectories.push_back(focusAlong(bench, pings.poses[i], options.out, trajectories[i].name, options.autofocus));
+      result.trajectories.back().topic = trajectories[i].topic;
       progress.advance(1);
     }
   }

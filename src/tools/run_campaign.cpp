@@ -11,9 +11,11 @@
 #include <numeric>
 #include <thread>
 
+#include "focus_document.hpp"
 #include "main_guard.hpp"
 #include "sas_motion/campaign/ordered_tasks.hpp"
 #include "sas_motion/campaign/suite.hpp"
+#include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 #include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 #include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
@@ -24,7 +26,7 @@ using namespace sas_motion;
 using nlohmann::json;
 
 struct Options {
-  std::string suite, tasks;
+  std::string suite, tasks, images;
   int runs = 0;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool plan = false, bounds = false, trace = false;
@@ -132,6 +134,22 @@ json tracesOf(const Suite& suite) {
   return all;
 }
 
+/// A folder a campaign that makes images, and in it one a law.
+void writeImages(const Suite& suite, const std::string& folder) {
+  const auto named = [](std::string name) {
+    std::replace(name.begin(), name.end(), '/', '_');
+    return "/" + name;
+  };
+  for (const auto& campaign : suite.campaigns)
+    for (std::size_t law = 0; law < campaign->laws.size(); ++law) {
+      const std::string place = folder + named(campaign->title) + named(campaign->laws[law].name);
+      const auto result = campaign->images(law, suite.first_seed, place);
+      if (!result) continue;
+      writeFile(place + "/focus.json", focusDocument(*result));
+      fmt::print("{}", focusTable(*result));
+    }
+}
+
 void run(const Options& options) {
   Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter, ins::makeAnyEstimator);
   if (options.runs > 0) suite.runs = options.runs;
@@ -139,6 +157,7 @@ void run(const Options& options) {
   if (!options.tasks.empty()) printTasks(suite, options);
   if (options.bounds) fmt::print("{}\n", boundsOf(suite).dump());
   if (options.trace) fmt::print("{}\n", tracesOf(suite).dump());
+  if (!options.images.empty()) writeImages(suite, options.images);
 }
 
 }  // namespace
@@ -154,6 +173,7 @@ int main(int argc, char** argv) {
   what->add_option("--tasks", options.tasks, "FIRST:LAST: the results of these runs, a line each, in order");
   what->add_flag("--bounds", options.bounds, "posterior Cramer-Rao bounds");
   what->add_flag("--trace", options.trace, "the first seed of every law over time");
+  what->add_option("--images", options.images, "folder for the images of the first seed of every law, which plot_focus.py draws; and their measures");
   what->require_option(1);
   return runTool(app, argc, argv, [&] { run(options); });
 }
