@@ -9,6 +9,7 @@ from .bootstrap import rounded
 
 ERROR = 'path_wavelengths'
 EDGES = [0] + [2.0 ** -n for n in range(9, 2, -1)] + [math.inf]  # of aperture errors [wavelengths]
+SHARP = {'pslr': 0.5, 'islr': 1.0}  # [dB] that an image may lose along track and in range and be as sharp as the error-free one
 COSTS = ('pslr_along', 'islr_along', 'peak_loss')  # that an aperture error has
 
 
@@ -17,7 +18,15 @@ def image(results):
     windows = windows_of(results)
     names = sorted({name for window in windows for name in window if name != 'start'})
     return {'windows': len(windows), 'measured': sum(window.get('peak_loss') is not None for window in windows),
+            'sharp': share(windows, ''), 'autofocus_sharp': share(windows, 'autofocus_'),
             'measures': {name: spread([window.get(name) for window in windows]) for name in names}}
+
+
+def share(windows, prefix):
+    """Returns how many of the windows have images that are as sharp as the error-free ones."""
+    limits = {f'{prefix}{measure}_{cut}': limit for measure, limit in SHARP.items() for cut in ('along', 'range')}
+    good = sum(all(window.get(name) is not None and window[name] <= limit for name, limit in limits.items()) for window in windows)
+    return rounded(good / len(windows)) if windows else None
 
 
 def windows_of(results):
@@ -51,8 +60,10 @@ COLUMNS = (('aperture error', 'λ', ERROR), ('PSLR', 'dB', 'pslr_along'), ('ISLR
            ('compensated PSLR', 'dB', 'compensated_pslr_along'), ('loss', 'dB', 'compensated_peak_loss'),
            ('range PSLR', 'dB', 'pslr_range'), ('ISLR', 'dB', 'islr_range'), ('moved', 'm', 'peak_error'))
 DIGITS = {'λ': 3, 'm': 2, 'dB': 1, '×': 2}
+SHARES = (('as sharp', 'sharp'), ('autofocused as sharp', 'autofocus_sharp'))  # title, key of the share
 CAPTION = ('Images along each estimate less the error-free one, along track unless said: median / 90 % quantile of the size, over all apertures. Aperture error: RMS of the '
-           'paths. Autofocused: after phase gradient autofocus. Compensated: by the line-of-sight formula on a straight track.')
+           'paths. Autofocused: after phase gradient autofocus. Compensated: by the line-of-sight formula on a straight track. '
+           'As sharp: PSLR at most 0.5 dB and ISLR at most 1 dB worse than error-free, both cuts.')
 COSTS_CAPTION = 'What an aperture error costs: images of all estimators and laws, along track less the error-free one: median / 90 % quantile of the size.'
 
 
@@ -62,12 +73,18 @@ def pair(found, unit):
     return '-' if not found or found['median'] is None else ' / '.join(f'{round(found[key], digits) + 0:.{digits}f}' for key in ('median', 'q90'))  # + 0: no -0.0
 
 
+def percent(part):
+    """Returns a cell: a share in per cent."""
+    return '-' if part is None else f'{100 * part:.0f}'
+
+
 def image_rows(law, estimators):
     """Returns the titles and a row an estimator; empty where none has images."""
     seen = [name for name in estimators if 'image' in law['estimators'][name]]
     found = {name: law['estimators'][name]['image'] for name in seen}
-    titles = ['estimator', 'images', *(f'{title} [{unit}]' for title, unit, _ in COLUMNS)]
-    rows = [[name, f'{found[name]["measured"]} of {found[name]["windows"]}', *(pair(found[name]['measures'].get(measure), unit) for _, unit, measure in COLUMNS)] for name in seen]
+    titles = ['estimator', 'images', *(f'{title} [%]' for title, _ in SHARES), *(f'{title} [{unit}]' for title, unit, _ in COLUMNS)]
+    rows = [[name, f'{found[name]["measured"]} of {found[name]["windows"]}', *(percent(found[name][key]) for _, key in SHARES),
+             *(pair(found[name]['measures'].get(measure), unit) for _, unit, measure in COLUMNS)] for name in seen]
     return [titles, *rows] if rows else []
 
 

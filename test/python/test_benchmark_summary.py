@@ -62,12 +62,14 @@ def test_images_have_medians_quantiles_and_what_an_aperture_error_costs():
     runs = records(the_plan, lambda *_: 1.0)
     for (_, _, seed), run in runs.items():
         error = 0.004 * seed
-        run['results']['ckf27']['windows'] = [{'start': 120, 'path_wavelengths': error, 'pslr_along': -100 * error, 'islr_along': 1.0, 'peak_loss': 10 * error}]
+        run['results']['ckf27']['windows'] = [{'start': 120, 'path_wavelengths': error, 'pslr_along': -100 * error, 'islr_along': 0.75 + 10 * error,
+                                               'pslr_range': 0.0, 'islr_range': 0.0, 'peak_loss': 10 * error}]
         run['results']['gps']['windows'] = [{'start': 120, 'path_wavelengths': 3.0, 'pslr_along': None}]
     summary = summarise(the_plan, runs, {})
     # THEN they are summed up, signs only in the median, and the classes part by error
     image = law(summary)['ckf27']['image']
     assert image['measured'] == image['windows'] == 10
+    assert (image['sharp'], image['autofocus_sharp']) == (0.6, 0.0)  # ISLR at most 1 dB worse
     assert image['measures']['pslr_along'] == {'median': pytest.approx(-2.2), 'q90': pytest.approx(np.quantile(0.4 * np.arange(1, 11), 0.9))}
     assert law(summary)['gps']['image']['measured'] == 0 and law(summary)['gps']['image']['measures']['pslr_along']['median'] is None
     classes = summary['campaigns']['c']['by_aperture_error']
