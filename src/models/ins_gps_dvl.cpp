@@ -5,14 +5,13 @@
 #include <array>
 #include <cmath>
 
+#include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
 
 namespace sas_motion::ins {
 namespace {
 
 constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
-
-Matrix<3> cross(const Vector<3>& v) { return (Matrix<3>() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished(); }
 
 double markovDensity(double sigma, double time) { return 2 * sigma * sigma / time; }
 
@@ -23,6 +22,11 @@ Vector<3> positionOf(const NavigationState& state) { return {state.longitude, st
 const char* sensorName(Sensor sensor) {
   constexpr std::array<const char*, kSensors> names{"gps", "dvl", "depth"};
   return names[static_cast<std::size_t>(sensor)];
+}
+
+Vector<3>& leverOf(Parameters& parameters, Sensor sensor) {
+  if (sensor == Sensor::Gps) return parameters.gps_lever_body;
+  return sensor == Sensor::Dvl ? parameters.dvl_lever_body : parameters.depth_lever_body;
 }
 
 Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_nav) {
@@ -125,9 +129,12 @@ LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const 
   return z;
 }
 
+Vector<3> ErrorModel::rateOverGround(const NavigationState& ins, const Vector<3>& rate_body) const {
+  return rate_body - ins.q_nav_body.conjugate() * earth::rotationRate(ins.latitude);
+}
+
 Vector<3> ErrorModel::velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const {
-  const Vector<3> over_ground = rate_body - ins.q_nav_body.conjugate() * earth::rotationRate(ins.latitude);
-  return velocity_dvl_body - over_ground.cross(parameters_.dvl_lever_body);
+  return velocity_dvl_body - rateOverGround(ins, rate_body).cross(parameters_.dvl_lever_body);
 }
 
 LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body,

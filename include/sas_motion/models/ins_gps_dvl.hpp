@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "sas_motion/filters/linearized.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/gaussian.hpp"
@@ -59,6 +61,7 @@ enum class Sensor { Gps, Dvl, Depth };
 constexpr std::size_t kSensors = 3;
 const char* sensorName(Sensor sensor);
 constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : 3; }
+Vector<3>& leverOf(Parameters& parameters, Sensor sensor);
 
 /// What one of the sensors that aid the INS says.
 struct Aiding {
@@ -66,6 +69,9 @@ struct Aiding {
   Sensor sensor = Sensor::Gps;
   NavigationState fix;                          ///< GPS: position of the antenna; depth: height of the sensor
   Vector<3> velocity_body = Vector<3>::Zero();  ///< DVL: its velocity over the ground
+  // Where the reading says more than the parameters do.
+  std::optional<Vector<3>> variance;    ///< of its white noise, a row each [m^2, m^2/s^2]
+  std::optional<Vector<3>> lever_body;  ///< its sensor from the INS, from now on [m]
 };
 
 /// Velocity, position and attitude rows of the INS error dynamics in SI units, (rad, rad, m) for the position. (C.2), with the derivative of
@@ -97,11 +103,15 @@ class ErrorModel {
   /// Height of the depth sensor.
   LinearMeasurement<kStates, 1> depth(const NavigationState& ins, double height, const Errors& mean) const;
 
+  /// Of the body over the ground from that against inertial space; body.
+  Vector<3> rateOverGround(const NavigationState& ins, const Vector<3>& rate_body) const;
   /// Velocity of the INS over the ground from the DVL's reading; body.
   Vector<3> velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const;
 
   const Errors& unit() const { return unit_; }  ///< of each state: SI of part C = unit * state
   const Parameters& parameters() const { return parameters_; }
+  /// Where a sensor sits from the INS [m].
+  void place(Sensor sensor, const Vector<3>& lever_body) { leverOf(parameters_, sensor) = lever_body; }
   /// East, north, up of a position error in the model's metres, from longitude, latitude, height; and back.
   Vector<3> metresPerPosition() const { return unit_.segment<3>(kPosition).cwiseInverse(); }
 

@@ -19,8 +19,7 @@ struct Attitude {
 /// The rotation of an attitude: v_map = C v_body = Rz(-heading) Rx(pitch) Ry(roll) v_body. [Titterton2004, 3.6, in these axes]
 inline Matrix<3> rotationOf(const Attitude& attitude) {
   using Eigen::AngleAxisd;
-  return (AngleAxisd(-attitude.heading, Vector<3>::UnitZ()) * AngleAxisd(attitude.pitch, Vector<3>::UnitX()) *
-          AngleAxisd(attitude.roll, Vector<3>::UnitY()))
+  return (AngleAxisd(-attitude.heading, Vector<3>::UnitZ()) * AngleAxisd(attitude.pitch, Vector<3>::UnitX()) * AngleAxisd(attitude.roll, Vector<3>::UnitY()))
       .toRotationMatrix();
 }
 
@@ -28,6 +27,9 @@ inline Matrix<3> rotationOf(const Attitude& attitude) {
 inline Attitude attitudeOf(const Matrix<3>& C) {
   return {std::asin(std::clamp(C(2, 1), -1.0, 1.0)), std::atan2(-C(2, 0), C(2, 2)), std::atan2(C(0, 1), C(1, 1))};
 }
+
+/// [v x]: its product with u is v x u.
+inline Matrix<3> cross(const Vector<3>& v) { return (Matrix<3>() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished(); }
 
 /// Components of starboard, forward, up from those of forward, port, up (REP-103); its transpose leads back.
 inline Matrix<3> bodyFromRosBody() { return (Matrix<3>() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(); }
