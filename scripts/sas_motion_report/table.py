@@ -54,5 +54,5 @@ def legend(metrics):
     """Returns what the marks and columns mean."""
     times = [dig(e, 'aperture', 'time') for _, e in ranked(metrics)]
     aperture = next((f' ({quantity(t)} s)' for t in times if t), '')
-    return ('* best, ! mean outside its 95 % band; position, heading, current: RMSE; NEES and NIS: expected 2 for position, 3 for gps;\n'
+    return ('* best, ! mean outside its 95 % band; position, heading, current: RMSE; NEES, NIS: expected 2 for position, 3 for gps;\n'
             f'aperture: RMS across track within one synthetic aperture{aperture}, mean and trend removed')

@@ -39,8 +39,12 @@ std::vector<Route> routesOf(const std::vector<BagConnection>& connections, const
 
 std::unique_ptr<ReprocessSystem> makeReprocessSystem(const std::string& config) {
   std::string system = "towfish";
-  if (!config.empty()) YamlSection::fromFile(config).text("system", system);
-  return system == "ins_gps_dvl" ? makeInsSystem(config) : makeTowfishSystem(config);
+  if (config.empty()) return makeTowfishSystem(config);
+  auto yaml = YamlSection::fromFile(config);
+  yaml.text("system", system);
+  if (system == "ins_gps_dvl") return makeInsSystem(config);
+  if (system != "towfish") yaml.fail("system", fmt::format("is '{}' but must be towfish or ins_gps_dvl", system));
+  return makeTowfishSystem(config);
 }
 
 ReprocessReport reprocess(const std::string& input, const std::string& folder, const std::vector<std::string>& estimators, const ReprocessSystem& system,

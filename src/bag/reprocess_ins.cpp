@@ -23,11 +23,12 @@ class Writer {
   Writer(const std::string& name, const InsSettings& settings, const RunOutput& out)
       : name_(name), settings_(settings), rate_(settings.estimation.output_rate), bag_(out.bag), tum_(fmt::format("{}.{}.tum", out.stem, name)) {}
 
-  void drain(ins::Output& output, const LocalFrame& frame, const Vector<3>& base_lever_body) {
+  /// Nothing starts without a fix, so that there is a frame where there are solutions.
+  void drain(ins::Output& output, const std::optional<LocalFrame>& frame, const Vector<3>& base_lever_body) {
     inTimeOrder(
         output.solutions, output.audits,
         [&](const ins::Solution& solution) {
-          if (rate_.due(solution.stamp)) write(movedBy(solution, base_lever_body), frame);
+          if (rate_.due(solution.stamp)) write(movedBy(solution, base_lever_body), *frame);
         },
         [&](const ins::Audit& audit) {
           ++report_.verdicts[static_cast<std::size_t>(audit.verdict)];
@@ -113,8 +114,7 @@ class InsRun final : public BagRun {
     return std::all_of(writers_.begin(), writers_.end(), [](const auto& writer) { return writer->report().estimates == 0; });
   }
   void drain() {
-    if (!frame()) return;  // nothing has started without a fix
-    for (std::size_t i = 0; i < writers_.size(); ++i) writers_[i]->drain(session_.lanes()[i].output, *frame(), ingest_.base_lever_body());
+    for (std::size_t i = 0; i < writers_.size(); ++i) writers_[i]->drain(session_.lanes()[i].output, frame(), ingest_.base_lever_body());
   }
 
   const InsSettings& settings_;

@@ -25,8 +25,8 @@ void InsIngest::take(const sensor_msgs::Imu& message) {
 
 template <class Message>
 void InsIngest::takeAiding(const Message& message, Source source) {
-  inbox_.receive(message, source, [this](const Message& m, const Transform& T_base_sensor) {
-    if (!T_base_imu_) return false;
+  inbox_.receive(message, source, [this](const Message& m, const Transform& T_base_sensor) -> std::optional<bool> {
+    if (!T_base_imu_) return std::nullopt;
     const auto reading = readingOf(m, InsMount{T_base_sensor, *T_base_imu_}, settings_.estimation);
     if (!reading) return false;
     if (!frame_ && reading->sensor == ins::Sensor::Gps) setDatum(geodeticOf(reading->fix));

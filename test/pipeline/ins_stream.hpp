@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "sas_motion/pipeline/ins_head.hpp"
@@ -18,26 +19,33 @@ inline Scenario surveyOf(double duration) {
   return scenario;
 }
 
+template <class Map>
+std::vector<Reading> valuesOf(const Map& map) {
+  std::vector<Reading> values;
+  for (const auto& entry : map) values.push_back(entry.second);
+  return values;
+}
+
 /// A simulated run as readings in the order of their stamps, with the attitude that `simulate` writes: the true one with the errors of the start.
 inline std::vector<Reading> streamOf(const Scenario& scenario, std::uint64_t seed) {
   const Trajectory trajectory(scenario.track, scenario.duration);
   const Recording recording = simulate(scenario, trajectory, seed);
   const Eigen::Quaterniond error = recording.start.q_nav_body * trajectory.at(0).state.q_nav_body.conjugate();
   const Parameters& p = scenario.parameters;
-  std::vector<Reading> stream;
+  std::multimap<std::tuple<Stamp, std::size_t>, Reading> stream;
+  const auto add = [&](const Reading& reading) { stream.emplace(placeOf(reading), reading); };
   for (std::size_t k = 1; k < recording.imu.size(); ++k) {
     InertialReading reading{recording.imu[k], {}};
     reading.attitude = MeasuredAttitude{error * trajectory.at(secondsBetween(0, reading.imu.stamp)).state.q_nav_body, p.start_tilt, p.start_heading};
     reading.imu.stamp += kEpoch;
-    stream.emplace_back(reading);
+    add(reading);
   }
   for (const auto& labelled : recording.aiding) {
     Aiding reading = labelled.reading;
     reading.stamp += kEpoch;
-    stream.emplace_back(reading);
+    add(reading);
   }
-  std::stable_sort(stream.begin(), stream.end(), [](const Reading& a, const Reading& b) { return placeOf(a) < placeOf(b); });
-  return stream;
+  return valuesOf(stream);
 }
 
 inline SessionOptions optionsOf(const Scenario& scenario, double lag = 2) {
@@ -70,18 +78,15 @@ inline Output settled(const std::vector<Reading>& stream, const SessionOptions& 
 }
 
 /// A stream whose readings of GPS and DVL come late by `delay` at most, drawn from a fixed sequence [s].
-inline std::vector<Reading> shuffled(std::vector<Reading> stream, double delay) {
-  std::vector<std::pair<Stamp, Reading>> arrivals;
+inline std::vector<Reading> shuffled(const std::vector<Reading>& stream, double delay) {
+  std::multimap<Stamp, Reading> arrivals;
   std::uint32_t state = 12345;
-  for (auto& reading : stream) {
+  for (const auto& reading : stream) {
     state = 1664525 * state + 1013904223;
-    const double late = isInertial(reading) ? 0.1 : 1;
-    arrivals.emplace_back(stampOf(reading) + stampFromSeconds(late * delay * state / 4294967296.0), std::move(reading));
+    const double longest = isInertial(reading) ? 0.1 * delay : delay;
+    arrivals.emplace(stampOf(reading) + stampFromSeconds(longest * state / 4294967296.0), reading);
   }
-  std::stable_sort(arrivals.begin(), arrivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Reading> late;
-  for (auto& [arrival, reading] : arrivals) late.push_back(std::move(reading));
-  return late;
+  return valuesOf(arrivals);
 }
 
 }  // namespace sas_motion::ins::testing

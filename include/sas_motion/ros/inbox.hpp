@@ -46,15 +46,17 @@ class Inbox {
  public:
   Inbox(const SensorFrames& frames, double timeout, std::size_t sources) : frames_(frames), timeout_(timeout), sources_(sources) {}
 
-  /// Hands a message to `convert(message, T_base_sensor)`, now or when its frame is known; it returns whether there was a reading.
+  /// Hands a message to `convert(message, T_base_sensor)`, now or when its frame is known; it returns whether there was a reading, or nothing
+  /// where the message has to wait.
   template <class Message, class Convert>
   void receive(const Message& message, std::size_t source, const Convert& convert) {
     if (!count(message.header, source)) return;
     if (!waiting_.empty()) retry();
     const auto attempt = [this, message, source, convert] {
       const auto T_base_sensor = frames_.find(message.header.frame_id);
-      if (T_base_sensor && !convert(message, *T_base_sensor)) ++sources_[source].counts.unusable;
-      return T_base_sensor.has_value();
+      const std::optional<bool> read = T_base_sensor ? std::optional<bool>(convert(message, *T_base_sensor)) : std::nullopt;
+      if (read && !*read) ++sources_[source].counts.unusable;
+      return read.has_value();
     };
     if (!attempt()) waiting_.push_back({stampOf(message.header.stamp), source, attempt});
   }
@@ -75,7 +77,7 @@ class Inbox {
   struct Waiting {
     Stamp stamp;
     std::size_t source;
-    std::function<bool()> attempt;  // true once the frame is known
+    std::function<bool()> attempt;  // true once it need not wait any more
   };
 
   /// Returns whether the message is wanted.

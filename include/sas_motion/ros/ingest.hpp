@@ -32,6 +32,7 @@ class Ingest {
   void setDatum(const Geodetic& datum) { frame_.emplace(datum); }
   const std::optional<LocalFrame>& frame() const { return frame_; }
   const Counts& counts(Source source) const { return inbox_.counts(source); }
+  const Inbox& inbox() const { return inbox_; }
 
  private:
   /// Returns whether there was any.
