@@ -7,6 +7,7 @@
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace sas_motion::ros_side {
+
 EstimatorServer::EstimatorServer(const ros::NodeHandle& node, const ros::NodeHandle& own, const std::vector<std::string>& default_estimators)
     : node_(node), own_(own) {
   std::string config;

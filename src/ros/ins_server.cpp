@@ -146,8 +146,8 @@ void InsServer::diagnoseStart(diagnostic_updater::DiagnosticStatusWrapper& statu
 
 void InsServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, "estimating");
-  diagnoseStart(status);
   diagnoseSources(ingest_->inbox(), InsIngest::kNames, settings_, status);
+  diagnoseStart(status);
   const auto& inertial = session_->session().inertial();
   status.addf("imu rate [1/s]", "%.2f", inertial.mean_period > 0 ? 1 / inertial.mean_period : 0);
   const auto& of = inertial.verdicts;
