@@ -103,7 +103,8 @@ class Judge {
       if (s.error[group]) m[angle ? "heading_deg" : groupName(group)] = toJson(*s.error[group], angle ? kRadPerDeg : 1);
       if (s.nees[group]) m["nees"][groupName(group)] = toJson(*s.nees[group]);
     }
-    const ApertureError& a = s.aperture;
+    ApertureError a = s.aperture;
+    if (a.windows == 0) a.across = a.along = std::nan("");  // too few estimates for one
     m["aperture"] = {{"time", a.time},     {"wavelength", a.wavelength}, {"windows", a.windows},
                      {"across", a.across}, {"along", a.along},           {"across_wavelengths", a.across / a.wavelength}};
     for (const auto& gap : gaps)
@@ -138,9 +139,12 @@ class Judge {
                                 label == recording_.outlier.end() ? std::nullopt : std::optional<bool>(label->second));
       degrees[audit.sensor] = static_cast<double>(audit.rows);
     }
+    const auto& motions = estimator.motions;  // a solution without covariance has no NIS to speak of
+    const bool consistent =
+        motions.empty() || std::any_of(motions.begin(), motions.end(), [](const MotionSample& motion) { return motion.P_position_map.has_value(); });
     Detection all;
     for (const auto& [name, tally] : tallies) {
-      if (!tally.nis.empty()) m["nis"][name] = toJson(consistency(tally.nis, degrees[name]));
+      if (!tally.nis.empty() && consistent) m["nis"][name] = toJson(consistency(tally.nis, degrees[name]));
       if (!recording_.labelled()) continue;
       m["outliers"][name] = toJson(tally.detection);
       all.labelled += tally.detection.labelled;
