@@ -4,63 +4,18 @@
 // Pulses times pixels a second: backproject() on one and two threads beside a plain loop in double, all in one run. Each figure is the best of several short
 // repeats, because the cores may be shared. usage: backprojection_speed [REPEATS]
 #include <fmt/format.h>
-#include <hwy/targets.h>
 
-#include <chrono>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
 
-#include "sas_motion/imaging/backprojection.hpp"
-#include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/factorized_backprojection.hpp"
-#include "sas_motion/imaging/range_compression.hpp"
 #include "sas_motion/math/angles.hpp"
-#include "sas_motion/math/random.hpp"
+#include "speckle_problem.hpp"
 
 namespace {
 
 using namespace sas_motion;
-using namespace sas_motion::imaging;
-
-SonarDescription sonar() {
-  SonarDescription sonar;
-  sonar.receivers = 1;
-  sonar.stop_and_hop = true;
-  sonar.near_range = 20;
-  sonar.far_range = 40;
-  return sonar;
-}
-
-/// Speckle heard from `count` places on `length` metres of a slightly uneven track; receivers apart from the transmitter and under way where asked for.
-EchoLines speckleLines(int count, double length, bool bistatic) {
-  std::vector<EchoPath> paths(static_cast<std::size_t>(count));
-  Random random(1);
-  for (int i = 0; i < count; ++i) {
-    EchoPath& path = paths[static_cast<std::size_t>(i)];
-    path.transmitter = path.receiver = {length / count * (i - count / 2), 0.01 * random.gaussian(), 10};
-    if (bistatic) {
-      path.receiver.x() += 0.3;
-      path.receiver_velocity.x() = 2;
-    }
-  }
-  SpeckleOptions options;
-  options.lower = {-2, 24, 0};
-  options.upper = {2, 34, 0};
-  options.density = 10;
-  return compressRange(simulateEchoes(sonar(), paths, speckleScene(options, {}, 1), {}), sonar(), {});
-}
-
-ImageGrid patch(int rows, int columns, double along_step) {
-  ImageGrid grid;
-  grid.rows = rows;
-  grid.columns = columns;
-  grid.range_step = 0.01;
-  grid.along_step = along_step;
-  grid.origin = {-0.5 * columns * grid.along_step, 24, 0};
-  return grid;
-}
+using namespace sas_motion::benchmark;
 
 /// What one would write first: double, linear interpolation, the library's square root, sine and cosine.
 Image plainLoop(const EchoLines& lines, const ImageGrid& grid) {
@@ -83,54 +38,49 @@ Image plainLoop(const EchoLines& lines, const ImageGrid& grid) {
   return image;
 }
 
-/// Best of the repeats, in 10^6 pulses times pixels a second.
-struct Rate {
-  double wall = 0;
-  double cpu = 0;  ///< of CPU time, which other programs on the machine disturb less
+/// One and two threads in turns, so that both meet the same neighbours on the machine.
+struct Scaling {
+  Rate one, two;           ///< the best of each
+  double median_gain = 0;  ///< of the pairs, by wall time
 };
 
-template <class Make>
-Rate rate(const EchoLines& lines, const ImageGrid& grid, int repeats, Make&& make) {
-  Rate best;
-  const double work = 1e-6 * static_cast<double>(lines.paths.size()) * static_cast<double>(grid.pixels());
+Scaling scaling(const EchoLines& lines, const ImageGrid& grid, int repeats) {
+  Scaling result;
+  BackprojectionOptions one, two;
+  two.threads = 2;
+  std::vector<double> gains;
   for (int i = 0; i < repeats; ++i) {
-    const std::clock_t cpu_start = std::clock();
-    const auto start = std::chrono::steady_clock::now();
-    const Image image = make();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
-    if (!std::isfinite(image.pixels.front().real())) std::abort();
-    best.wall = std::max(best.wall, work / seconds);
-    best.cpu = std::max(best.cpu, work / cpu_seconds);
+    const Rate alone = rateOnce(lines, [&] { return backproject(lines, grid, one); });
+    const Rate both = rateOnce(lines, [&] { return backproject(lines, grid, two); });
+    result.one = result.one.best(alone);
+    result.two = result.two.best(both);
+    gains.push_back(both.wall / alone.wall);
   }
-  return best;
+  std::nth_element(gains.begin(), gains.begin() + repeats / 2, gains.end());
+  result.median_gain = gains[static_cast<std::size_t>(repeats / 2)];
+  return result;
 }
 
-constexpr double kBeam = 4.5;  // what 0.1 m elements open at 30 m [m]
-
 void compareTargets(int repeats) {
-  const ImageGrid grid = patch(1024, 128, 0.025), small = patch(64, 64, 0.025);
-  fmt::print("1024 x 128 pixels of 1 x 2.5 cm, 256 lines on {} m; best of {} repeats; 10^6 pulses x pixels; error against double\n", kBeam, repeats);
-  const EchoLines few = speckleLines(8, kBeam, false);
-  const Rate plain = rate(few, grid, repeats, [&] { return plainLoop(few, grid); });
+  const ImageGrid grid = patch(1024, 128), small = patch(64, 64);
+  fmt::print(
+      "1024 x 128 pixels of 1 x 2.5 cm, 256 lines on {} m; best of {} repeats, one and two threads in turns; 10^6 pulses x pixels; error against double\n",
+      kBeam, repeats);
+  const EchoLines few = speckleLines(8, false);
+  const Rate plain = rate(few, repeats, [&] { return plainLoop(few, grid); });
   fmt::print("{:14} {:10} {:5.0f} a second, {:5.0f} a CPU second\n", "plain double", "monostatic", plain.wall, plain.cpu);
   for (const bool bistatic : {false, true}) {
-    const EchoLines lines = speckleLines(256, kBeam, bistatic);
+    const EchoLines lines = speckleLines(256, bistatic);
     const Image reference = backprojectReference(lines, small, 2);
-    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-      BackprojectionOptions one, two;
-      two.threads = 2;
-      const Rate alone = rate(lines, grid, repeats, [&] { return backproject(lines, grid, one); });
-      const Rate both = rate(lines, grid, repeats, [&] { return backproject(lines, grid, two); });
-      fmt::print("{:14} {:10} {:5.0f} a second, {:5.0f} a CPU second; two threads {:5.0f} a second: x {:.2f}, {:5.0f} a CPU second; {:.1f} dB\n",
-                 backprojectionTarget(), bistatic ? "bistatic" : "monostatic", alone.wall, alone.cpu, both.wall, both.wall / alone.wall, both.cpu,
-                 relativeError(backproject(lines, small, {}), reference));
+    forEachInstructionSet([&] {
+      const Scaling found = scaling(lines, grid, repeats);
+      fmt::print(
+          "{:14} {:10} {:5.0f} a second, {:5.0f} a CPU second; two threads {:5.0f} a second, x {:.2f} best of each, x {:.2f} median of pairs, "
+          "{:5.0f} a CPU second; {:.1f} dB\n",
+          backprojectionTarget(), bistatic ? "bistatic" : "monostatic", found.one.wall, found.one.cpu, found.two.wall, found.two.wall / found.one.wall,
+          found.median_gain, found.two.cpu, relativeError(backproject(lines, small, {}), reference));
       std::fflush(stdout);
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
   }
 }
 
@@ -138,12 +88,12 @@ void compareTargets(int repeats) {
 void compareFactorized() {
   double last_direct = 0, last_factorized = 0;
   for (const int n : {128, 256, 512}) {
-    const EchoLines lines = speckleLines(n, kBeam, false);
-    const ImageGrid grid = patch(n, n, 0.025);
+    const EchoLines lines = speckleLines(n, false);
+    const ImageGrid grid = patch(n, n);
     Image direct, factorized;
     const double work = 1e-6 * static_cast<double>(n) * static_cast<double>(grid.pixels());
-    const double direct_seconds = work / rate(lines, grid, 2, [&] { return direct = backproject(lines, grid, {}); }).cpu;
-    const double factorized_seconds = work / rate(lines, grid, 2, [&] { return factorized = backprojectFactorized(lines, grid, 1); }).cpu;
+    const double direct_seconds = work / rate(lines, 2, [&] { return direct = backproject(lines, grid, {}); }).cpu;
+    const double factorized_seconds = work / rate(lines, 2, [&] { return factorized = backprojectFactorized(lines, grid, 1); }).cpu;
     fmt::print("n {:4}: direct {:.3f} s, factorised {:.3f} s, error {:.1f} dB", n, direct_seconds, factorized_seconds, relativeError(factorized, direct));
     if (last_direct > 0) fmt::print("; times {:.1f} and {:.1f} for twice n", direct_seconds / last_direct, factorized_seconds / last_factorized);
     fmt::print("\n");
@@ -156,6 +106,6 @@ void compareFactorized() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  compareTargets(argc > 1 ? std::atoi(argv[1]) : 20);
+  compareTargets(argc > 1 ? std::max(1, std::atoi(argv[1])) : 20);
   compareFactorized();
 }

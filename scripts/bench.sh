@@ -27,6 +27,7 @@ else
   campaign survey 100     # the asynchronous survey
   campaign eight_laws 1000
   campaign asynchronous 100
+  campaign imaging 20     # the image as judge
   campaign usbl 100
   campaign usbl_lock_in 1000
 fi
@@ -43,8 +44,12 @@ echo; echo "bench: USBL calibration: an update of each filter, and the batch"
 echo; echo "bench: USBL calibration: how the noise is followed, and a circle that tells too little"
 "$tools/usbl_figures" $((smoke == 1 ? 3 : 300))
 
-echo; echo "bench: backprojection, by vector instructions, beside a plain loop in double; and factorised"
-"$tools/backprojection_speed" $((smoke == 1 ? 1 : 20))
+if [ -x "$tools/backprojection_speed" ]; then
+  echo; echo "bench: backprojection, by vector instructions, beside a plain loop in double; and factorised"
+  "$tools/backprojection_speed" $((smoke == 1 ? 1 : 20))
+  echo; echo "bench: micronavigation, errors beside its standard deviations"
+  "$tools/micronavigation_accuracy" $((smoke == 1 ? 2 : 24))
+fi
 
 echo; echo "bench: rts beside batch"
 "$tools/smoother_speed" "$nodes"
@@ -55,10 +60,30 @@ echo; echo "bench: reprocess beside a bare pass over the bag, and memory against
 echo; echo "bench: nodelet, callback to publication at 100 messages a second"
 /usr/bin/python3 "$root/benchmark/nodelet_latency.py" "$tools" "$out" $((smoke == 1 ? 20 : 60))
 
+# Other people's code. Without a network what is installed serves and the rest is named; only a smoke run ends well then.
+missing=0
+install() { env -u PYTHONPATH "$venv/bin/pip" install --quiet --disable-pip-version-check --retries 1 "$@" || missing=1; }
+python="$venv/bin/python"
+with_peers() { env -u PYTHONPATH FASTSAR_CACHE_DIR="$venv/fastsar" "$python" "$@"; }
+
 echo; echo "bench: our answers and other people's code's"
-if env -u PYTHONPATH "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$root/benchmark/peers/requirements.txt"; then
-  env -u PYTHONPATH "$venv/bin/python" "$root/benchmark/cross_check.py" "$tools" $((smoke == 1 ? 20 : 200)) $((smoke == 1 ? 50 : 200))
+install -r "$root/benchmark/peers/requirements.txt"
+if [ $missing = 0 ]; then
+  with_peers "$root/benchmark/cross_check.py" "$tools" $((smoke == 1 ? 20 : 200)) $((smoke == 1 ? 50 : 200))
 else
   echo "bench: NOT CHECKED by other people's code: benchmark/peers/requirements.txt could not be installed" >&2
-  [ "$smoke" = 1 ] || exit 1  # a smoke run goes on without a network
 fi
+
+with_imaging_peers() {  # exit status 2: a peer is not there, and the rest is measured
+  with_peers "$@" || { [ $? = 2 ] && [ $missing = 1 ]; }
+}
+if [ -x "$tools/backprojection_answers" ]; then
+  echo; echo "bench: backprojection beside NumPy's and FastSAR's on one core, and measures of a point target beside perseo-quality's"
+  install --no-deps -r "$root/benchmark/peers/requirements_imaging.txt"
+  "$python" -c 'import numpy' 2>/dev/null || python=/usr/bin/python3
+  smallest=() ideal=()
+  [ "$smoke" = 0 ] || { smallest=(64 128 128 3) ideal=(unweighted); }
+  with_imaging_peers "$root/benchmark/compare_backprojection.py" "$tools" "${smallest[@]}"
+  with_imaging_peers "$root/benchmark/compare_measures.py" "$tools" "${ideal[@]}"
+fi
+[ $missing = 0 ] || [ "$smoke" = 1 ] || exit 1

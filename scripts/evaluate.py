@@ -11,6 +11,7 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
 from sas_motion_report import ReportError  # noqa: E402
 from sas_motion_report.files import find_tool, make_folder, write_atomically  # noqa: E402
+from sas_motion_report.images import read_focus  # noqa: E402
 from sas_motion_report.inputs import read_metrics, read_series  # noqa: E402
 from sas_motion_report.report import render  # noqa: E402
 from sas_motion_report.table import terminal_table  # noqa: E402
@@ -30,6 +31,7 @@ def parse_arguments(arguments):
     parser.add_argument('bag', metavar='OUT.bag', nargs='?', help='bag with estimates and truth')
     parser.add_argument('-o', '--output', metavar='DIR', help='folder of the report (default: OUT_report beside the bag)')
     parser.add_argument('--from', dest='source', metavar='DIR', help='score nothing; render the metrics.json and series.json of DIR')
+    parser.add_argument('--focus', metavar='DIR', help='put what focus wrote into DIR into the report: its table and, where it is drawn, its figure')
     parser.add_argument('--tool', metavar='FILE', help='the sas_motion_metrics to run, should it not be found')
     options = parser.parse_args(arguments)
     if (options.bag is None) == (options.source is None):
@@ -61,6 +63,7 @@ def evaluate(options):
     """Scores the bag, prints the table and writes the report."""
     source = options.source or options.output or default_folder(options.bag)
     folder = options.output or source
+    focus = read_focus(options.focus) if options.focus else None
     if options.bag:
         run_metrics(options.bag, folder, options.tool)
     metrics = read_metrics(os.path.join(source, 'metrics.json'))
@@ -68,7 +71,7 @@ def evaluate(options):
     series = read_series(os.path.join(source, 'series.json'))
     make_folder(folder)
     path = os.path.join(folder, 'report.html')
-    write_atomically(path, render(metrics, series))
+    write_atomically(path, render(metrics, series, focus))
     print(f'report: {path}')
 
 

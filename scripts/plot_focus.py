@@ -22,7 +22,10 @@ def parse_arguments(arguments):
     parser = plot_image.Parser(prog='plot_focus.py', description=__doc__)
     parser.add_argument('folder', metavar='OUT_DIR', help='that focus wrote focus.json into')
     parser.add_argument('--floor', type=float, default=-40, metavar='DB', help='what is darker is black [dB under the error-free peak] (default: %(default)s)')
+    parser.add_argument('--dpi', type=int, default=110, help='of focus.png, which is 14 inches wide (default: %(default)s)')
     options = parser.parse_args(arguments)
+    if not 20 <= options.dpi <= 1000:
+        parser.error(f'--dpi is {options.dpi} but must be from 20 to 1000')
     if not options.floor < 0:
         parser.error(f'--floor is {options.floor} but must be below 0')
     return options
@@ -99,7 +102,7 @@ def draw_cuts(plots, pictures, reference, floor):
     for plot, along, label in zip(plots, (True, False), ('along track from the peak [m]', 'ground range from the peak [m]')):
         for picture in pictures:
             place, power = picture.cut(along)
-            plot.plot(place, 10 * np.log10(np.maximum(power / reference, 1e-12)), linewidth=2 if picture is pictures[0] else 1, label=picture.name)
+            plot.plot(place, 10 * np.log10(np.maximum(power / reference, 1e-12)), linewidth=2 if picture is pictures[0] else 1, label='error-free' if picture is pictures[0] else picture.name)
         half = abs(pictures[0].axes['along_step' if along else 'range_step']) * 64
         plot.set_xlim(-half, half)
         plot.set_ylim(floor, 3)
@@ -109,7 +112,7 @@ def draw_cuts(plots, pictures, reference, floor):
     plots[0].legend(fontsize='small')
 
 
-def draw_comparison(summary, pictures, floor, output):
+def draw_comparison(summary, pictures, floor, dpi, output):
     """Writes the figure."""
     rows = math.ceil(len(pictures) / COLUMNS)
     figure = pyplot.figure(figsize=(14, 4 * rows + 4), layout='constrained')
@@ -120,7 +123,7 @@ def draw_comparison(summary, pictures, floor, output):
     window = summary['window']
     figure.suptitle('{}: aperture of {:.1f} m from {:.1f} s, λ = {:.4g} m; RMS error of the paths'.format(
         os.path.basename(summary['bag']), window['length'], window['start'], summary['wavelength']), fontsize='medium')
-    plot_image.save(figure, output, dpi=110)
+    plot_image.save(figure, output, dpi=dpi)
 
 
 def main():
@@ -130,7 +133,7 @@ def main():
         for picture in pictures:
             plot_image.draw(picture.pixels, picture.axes, options.floor, os.path.splitext(picture.path)[0] + '.png')
             pyplot.close('all')
-        draw_comparison(summary, pictures, options.floor, os.path.join(options.folder, 'focus.png'))
+        draw_comparison(summary, pictures, options.floor, options.dpi, os.path.join(options.folder, 'focus.png'))
     except (OSError, ValueError, KeyError) as error:
         sys.exit(f'plot_focus.py: {options.folder} cannot be drawn: {error}')
 

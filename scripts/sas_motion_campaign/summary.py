@@ -7,6 +7,7 @@ from sas_motion_report.inputs import dig
 
 from .bootstrap import LEVEL, RESAMPLES, SEED, Resampler, interval
 from .failures import clean_medians, kept_runs, lockouts
+from .images import by_aperture_error, image
 from .ratios import ratios, to_bound
 
 SCHEMA = 'sas_motion/benchmark/2'
@@ -43,9 +44,12 @@ def summarise_campaign(plan, campaign, records, bounds, resampler):
             for group in groups:
                 estimator['errors'][group]['to_bound'] = to_bound(estimator['errors'][group]['rms'], dig(bound, group, 'rmse'))
             estimator['ratios']['bound'] = estimator['errors'][groups[0]]['to_bound']
+            if any('windows' in result for result in runs[law['name'], name]):
+                estimator['image'] = image(runs[law['name'], name])
         facts = {key: law.get(key) for key in ('description', 'epsilon', 'K')}
         tree['laws'][law['name']] = {**facts, 'bound': bound, 'estimators': found}
-    return tree
+    table = by_aperture_error(runs)
+    return {**tree, 'by_aperture_error': table} if table else tree
 
 
 def error_groups(runs):

@@ -3,6 +3,8 @@
 """The results as plain text for a terminal."""
 from sas_motion_report.inputs import dig
 
+from .images import CAPTION, COSTS_CAPTION, cost_rows, image_rows
+
 HEADER = ('estimator', 'RMSE', '95 %', 'median', 'R', '/kf', '/oracle', '/reference', '/ckf', '/oracle', '/bound', '95 %', 'aperture [mm]', 'NEES/n', 'diverged', 'us/update')
 
 UNITS = {'position': ' [m]', 'mounting': ' [rad]'}
@@ -18,7 +20,18 @@ def terminal_table(summary, costs):
         for law, found in campaign['laws'].items():
             rows = [header(campaign)] + [row(campaign, estimator, found['estimators'][estimator], dig(costs, name, law, estimator)) for estimator in campaign['estimators']]
             lines += [law, *aligned(rows), '']
+        lines += image_tables(campaign)
     return '\n'.join(lines + [LEGEND])
+
+
+def image_tables(campaign):
+    """Returns the tables of images, a law each, and of what an aperture error costs; empty without images."""
+    lines = []
+    for law, found in campaign['laws'].items():
+        rows = image_rows(found, campaign['estimators'])
+        lines += [f'{law}: images', *aligned(rows), ''] if rows else []
+    costs = cost_rows(campaign)
+    return lines + [CAPTION, '', *aligned(costs), COSTS_CAPTION, ''] if costs else lines
 
 
 LEGEND = ('RMSE: RMS over the runs, of the first group of errors (position, mounting angles); R: over the same estimator under the first law; /reference: bayes_reference;\n'

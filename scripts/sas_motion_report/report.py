@@ -9,6 +9,7 @@ from .assets import asset, page
 from .columns import quantity
 from .figures import figure_data
 from .headline import headline
+from .images import images
 
 FIGURES = [
     ('track', 'Track', 'Truth, every estimator, the GNSS fixes, and what the chosen estimator made of them. Far outliers may lie beyond the edge; double-click to see all.'),
@@ -18,15 +19,15 @@ FIGURES = [
 ]
 
 
-def render(metrics, series):
-    """Returns the page as text."""
+def render(metrics, series, focus=None):
+    """Returns the page as text; `focus` is what read_focus() returns."""
     try:
         data = figure_data(metrics, series)
-        parts = {**texts(metrics), **sections(metrics, data)}
+        parts = {**texts(metrics), **sections(metrics, data, focus)}
         script = asset('plotting.js') + asset('figures.js') + asset('page.js')
         return page(f'{parts["bag"]}: motion estimates against truth', Template(asset('body.html')).substitute(parts), data, asset('style.css'), script)
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
-        raise ReportError(f'metrics.json or series.json has not the form of docs/metrics.schema.json ({error}); run evaluate.py on the bag again') from None
+        raise ReportError(f'metrics.json, series.json or focus.json has not the form of its schema in docs ({error}); run evaluate.py, or focus, on the bag again') from None
 
 
 def texts(metrics):
@@ -38,12 +39,13 @@ def texts(metrics):
     return {'bag': escape(str(metrics.get('bag', 'bag'))), 'facts': escape(', '.join(facts)), 'lead': escape(first), 'more': f'<ul>{more}</ul>' if more else ''}
 
 
-def sections(metrics, data):
+def sections(metrics, data, focus):
     """Returns the tables and plots of the page."""
     after = [('consistency', 'Consistency', tables.consistency(metrics)),
              ('measurements', 'Outliers and verdicts', tables.outliers(metrics) + tables.verdicts(metrics)),
              ('cost', 'Cost against accuracy', figure('cost', 'Lower left is better: less computing, less error.') if data['cost'] else ''),
-             ('outages', 'Outages', tables.outages(metrics))]
+             ('outages', 'Outages', tables.outages(metrics)),
+             ('images', 'Images', images(*focus) if focus else '')]
     return {'results': tables.results(metrics), 'choices': ''.join(f'<option>{escape(name)}</option>' for name in data['order']),
             'plots': ''.join(section(f'section-{name}', title, figure(name, caption)) for name, title, caption in FIGURES),
             'after': ''.join(section(f'section-{name}', title, body) for name, title, body in after if body)}

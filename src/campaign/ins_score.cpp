@@ -90,7 +90,7 @@ EstimatorReport Score::report(const std::string& name) const {
   for (const char* group : {"position", "height", "velocity", "tilt", "heading", "outage"})
     if (const auto found = errors_.find(group); found != errors_.end()) report.errors.emplace_back(group, towfish::summarize(found->second));
   for (const auto& [group, values] : nees_) report.nees.emplace_back(group, mean(values));
-  for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth})
+  for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth, Sensor::Dpc})
     if (const auto& values = nis_[static_cast<std::size_t>(sensor)]; !values.empty() && !nees_.empty())
       report.nis.emplace_back(sensorName(sensor), mean(values));
   const auto aperture = towfish::apertureError(time_, along_, across_, scenario_.track.speed, {});

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 
+#include "ins_campaign.hpp"
 #include "ins_score.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/pipeline/ins_solutions.hpp"
@@ -20,7 +20,8 @@ constexpr double kScoreEvery = 0.1;  // [s]
 
 /// What one estimator made of a run.
 struct Scored {
-  const NamedSolution* solution;
+  std::string name;
+  const NamedSolution* solution;  // none of an estimator that shares its run with no other
   Score score;
   double microseconds = 0;
 };
@@ -28,21 +29,24 @@ struct Scored {
 /// One law with its run, scored by several estimators at once where they come from the same filter.
 class RunScoring {
  public:
-  RunScoring(const Scenario& scenario, double skip, std::uint64_t seed)
-      : scenario_(scenario), trajectory_(scenario.track, scenario.duration), recording_(simulate(scenario, trajectory_, seed)), skip_(skip) {}
+  RunScoring(const Scenario& scenario, double skip, std::uint64_t seed, const EstimatorFactory& make)
+      : scenario_(scenario), trajectory_(scenario.track, scenario.duration), recording_(simulate(scenario, trajectory_, seed)), skip_(skip), make_(make) {}
 
-  std::vector<Scored> of(const std::vector<const NamedSolution*>& solutions) const {
+  std::vector<Scored> of(const std::vector<std::string>& names) const {
     std::vector<Scored> all;
-    for (const NamedSolution* solution : solutions) all.push_back({solution, Score(scenario_, skip_)});
-    Config config{scenario_.parameters, {}};
+    for (const auto& name : names) all.push_back({name, findSolution(name), Score(scenario_, skip_)});
+    Config config;
+    config.parameters = scenario_.parameters;
     config.imu.period = 1 / scenario_.imu_rate;
     for (const auto kind : kFilterKinds) {
       std::vector<Scored*> mine;
       for (auto& scored : all)
-        if (scored.solution->filter == kind) mine.push_back(&scored);
+        if (scored.solution && scored.solution->filter == kind) mine.push_back(&scored);
       if (mine.empty()) continue;
       withFilter(kind, config, [&](const auto& filter, const NavigatorOptions& options) { follow(filter, options, mine); });
     }
+    for (auto& scored : all)
+      if (!scored.solution) follow(*make_(scored.name, config), scored);
     return all;
   }
 
@@ -71,47 +75,54 @@ class RunScoring {
     const double time = secondsBetween(0, navigator.stamp());
     for (std::size_t i = 0; i < navigator.audits().size(); ++i)
       for (auto* one : scored) one->score.add(navigator.audits()[i], labelled[i]);
-    const double ticks = time / kScoreEvery;
-    if (std::abs(ticks - std::round(ticks)) > 1e-6) return;
+    if (!isScored(time)) return;
     const TruthSample truth = trajectory_.at(time);
     for (auto* one : scored)
       if (const auto solution = solutionOf(navigator, one->solution->source)) one->score.add(truth, *solution);
+  }
+
+  static bool isScored(double time) {
+    const double ticks = time / kScoreEvery;
+    return std::abs(ticks - std::round(ticks)) < 1e-6;
+  }
+
+  /// An estimator that answers late, or at the end alone.
+  void follow(Estimator& estimator, Scored& scored) const {
+    Output output;
+    auto next = recording_.aiding.begin();
+    const double begin = cpuSeconds();
+    estimator.start(recording_.start, 0);
+    for (const auto& reading : recording_.imu) {
+      for (; next != recording_.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator.process(next->reading, output);
+      estimator.process(reading, output);
+    }
+    estimator.finish(output);
+    scored.microseconds = 1e6 * (cpuSeconds() - begin) / static_cast<double>(std::max<std::size_t>(1, recording_.aiding.size()));
+    for (const auto& solution : output.solutions)
+      if (const double time = secondsBetween(0, solution.stamp); isScored(time)) scored.score.add(trajectory_.at(time), solution);
+    for (std::size_t i = 0; i < std::min(output.audits.size(), recording_.aiding.size()); ++i) scored.score.add(output.audits[i], recording_.aiding[i]);
   }
 
   const Scenario& scenario_;
   Trajectory trajectory_;
   Recording recording_;
   double skip_;
+  const EstimatorFactory& make_;
 };
 
 class InsSystem final : public System {
  public:
-  InsSystem(YamlSection& campaign, const std::string& folder) {
-    std::string file;
-    campaign.text("scenario", file);
-    if (file.empty()) campaign.fail("scenario", "is missing; name a scenario file");
-    Scenario scenario = Scenario::fromFile(std::filesystem::path(folder) / file);
-    campaign.number("duration", scenario.duration, {1, 1e6});
+  InsSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make)
+      : make_(make), scenarios_(readInsCampaign(campaign, folder, *this)) {
     dimension = kStates;
-    duration = scenario.duration;
-    skip = 120;
-    campaign.number("skip", skip, {0, 1e6});
-    if (skip >= duration) campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
-    campaign.texts("estimators", estimators);
-    if (estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
-    for (const auto& name : estimators) {
-      const NamedSolution* found = findSolution(name);
-      if (!found) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
-      solutions_.push_back(found);
-    }
-    for (auto& item : campaign.list("laws")) readLaw(item, scenario);
-    if (laws.empty()) campaign.fail("laws", "is missing; list at least one");
+    for (const auto& name : estimators)
+      if (!findSolution(name) && !make_(name, {})) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
   }
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
     std::vector<EstimatorReport> reports;
-    for (const auto& scored : RunScoring(scenarios_[law], skip, seed).of(solutions_)) {
-      reports.push_back(scored.score.report(scored.solution->name));
+    for (const auto& scored : RunScoring(scenarios_[law], skip, seed, make_).of(estimators)) {
+      reports.push_back(scored.score.report(scored.name));
       reports.back().microseconds = scored.microseconds;
     }
     return reports;
@@ -119,8 +130,8 @@ class InsSystem final : public System {
 
   Named<Trace> trace(std::size_t law, std::uint64_t seed) const override {
     Named<Trace> traces;
-    for (const auto& scored : RunScoring(scenarios_[law], skip, seed).of(solutions_)) {
-      traces.emplace_back(scored.solution->name, scored.score.trace());
+    for (const auto& scored : RunScoring(scenarios_[law], skip, seed, make_).of(estimators)) {
+      traces.emplace_back(scored.name, scored.score.trace());
       traces.back().second.nees_degrees = 9;
       traces.back().second.nis_degrees = rowsOf(Sensor::Gps);
     }
@@ -130,27 +141,14 @@ class InsSystem final : public System {
   Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override { return insBound(scenarios_[law], skip, seeds); }
 
  private:
-  /// `noise` is of GPS and DVL; `gps_outages` are added to the scenario's.
-  void readLaw(YamlSection& item, Scenario scenario) {
-    std::string name;
-    item.text("name", name);
-    if (item.has("noise")) scenario.sensor(Sensor::Gps).noise = scenario.sensor(Sensor::Dvl).noise = Scenario::readNoise(item, "noise");
-    for (const auto& outage : Scenario::readOutages(item, "gps_outages")) scenario.sensor(Sensor::Gps).outages.push_back(outage);
-    item.finish();
-    laws.push_back(lawInfo(name, scenario.sensor(Sensor::Gps).noise, {}));
-    if (const auto& outages = scenario.sensor(Sensor::Gps).outages; !outages.empty()) {
-      for (const auto& outage : outages) laws.back().description += fmt::format(", no GPS from {} to {} s", outage.begin, outage.end);
-      laws.back().epsilon = laws.back().K = std::nullopt;
-    }
-    scenarios_.push_back(scenario);
-  }
-
-  std::vector<const NamedSolution*> solutions_;
+  EstimatorFactory make_;
   std::vector<Scenario> scenarios_;  // by law
 };
 
 }  // namespace
 
-std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder) { return std::make_unique<InsSystem>(campaign, folder); }
+std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make) {
+  return std::make_unique<InsSystem>(campaign, folder, make);
+}
 
 }  // namespace sas_motion

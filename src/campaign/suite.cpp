@@ -35,7 +35,8 @@ std::string whatRunsDependOn(const std::string& file) {
 
 }  // namespace
 
-Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters) {
+Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters,
+                      const ins::EstimatorFactory& make_ins) {
   auto yaml = YamlSection::fromFile(file);
   const std::string folder = std::filesystem::path(file).parent_path();
   Suite suite;
@@ -59,9 +60,11 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
     else if (kind == "usbl")
       suite.campaigns.push_back(makeUsblSystem(item, folder, fitters));
     else if (kind == "ins_gps_dvl")
-      suite.campaigns.push_back(makeInsSystem(item, folder));
+      suite.campaigns.push_back(makeInsSystem(item, folder, make_ins));
+    else if (kind == "imaging")
+      suite.campaigns.push_back(makeImagingSystem(item, folder, make_ins));
     else
-      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl or ins_gps_dvl", kind));
+      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl, ins_gps_dvl or imaging", kind));
     suite.campaigns.back()->title = name;
     suite.campaigns.back()->kind = kind;
     item.finish();

@@ -6,6 +6,7 @@
 #include "sas_motion/campaign/system.hpp"
 #include "sas_motion/campaign/towfish_campaign.hpp"
 #include "sas_motion/evaluation/bounds.hpp"
+#include "sas_motion/pipeline/ins_estimator.hpp"
 #include "sas_motion/simulation/ins_scenario.hpp"
 
 namespace sas_motion {
@@ -14,7 +15,9 @@ namespace sas_motion {
 std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::string& folder, const towfish::EstimatorFactory& make);
 std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign);
 std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string& folder, const usbl::FitterFactory& fitters);
-std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder);
+std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder, const ins::EstimatorFactory& make);
+/// Fails where the build has no imaging.
+std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string& folder, const ins::EstimatorFactory& make);
 
 /// The bound of each group of states, by its name; empty where one is not known at all.
 template <int N>

@@ -13,6 +13,7 @@
 #define SAS_MOTION_INSTANTIATE_INS_UPDATES(Filter) \
   template class Filter<27>;                       \
   SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 1)     \
+  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 2)     \
   SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 3)
 
 #define SAS_MOTION_INSTANTIATE_UPDATES(Filter) \

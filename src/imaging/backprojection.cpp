@@ -153,7 +153,7 @@ class Backprojector {
       const EchoPath& path = lines_.paths[i];
       const double length = pathLength(path, centre, lines_.sound_speed);
       TileLine& line = tile_lines[count];
-      if (!illuminates(path, centre, options_.half_angle) || !fine_.aim(i, length, line)) continue;
+      if (!std::isfinite(length) || !illuminates(path, centre, options_.half_angle) || !fine_.aim(i, length, line)) continue;
       setGeometry(line, path, centre, length, lines_.sound_speed, image_.grid);
       const double turns = lines_.carrier / lines_.sound_speed * length;
       line.turns = static_cast<float>(turns - std::round(turns));

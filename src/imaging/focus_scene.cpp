@@ -10,6 +10,8 @@
 #include <complex>
 #include <stdexcept>
 
+#include "sas_motion/imaging/fourier.hpp"
+
 namespace sas_motion::imaging {
 namespace {
 
@@ -87,7 +89,8 @@ ImageGrid focusGrid(const FocusSettings& settings, double aperture_length, int h
   const Eigen::Vector2d first = box.min().array() - image.margin, size = box.sizes().array() + 2 * image.margin;
   grid.origin = first.x() * grid.range_axis + first.y() * grid.along_axis;
   grid.rows = pixelCount("range_step", size.x(), grid.range_step);
-  grid.columns = pixelCount("along_step", size.y(), grid.along_step);
+  grid.columns =
+      static_cast<int>(fastLength(static_cast<std::size_t>(pixelCount("along_step", size.y(), grid.along_step))));  // autofocus transforms along them
   return grid;
 }
 

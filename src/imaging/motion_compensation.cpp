@@ -14,16 +14,16 @@ namespace {
 
 Eigen::Vector3d phaseCentre(const EchoPath& path) { return (path.transmitter + path.receiver) / 2; }
 
-/// Where the line was off the ideal track.
+/// Where the line was off the ideal track, at transmission, and how fast that grew until the echo came in.
 struct Deviation {
-  double sway = 0;    ///< away from the bottom looked at [m]
-  double heave = 0;   ///< upwards [m]
-  double height = 0;  ///< of the ideal track over the bottom [m]
+  double sway = 0, sway_rate = 0;    ///< of the phase centre, away from the bottom looked at [m], [m/s]
+  double heave = 0, heave_rate = 0;  ///< upwards [m], [m/s]
+  double height = 0;                 ///< of the ideal track over the bottom [m]
 
-  /// How much too far a target at this ideal slant range looked [m].
-  double slantError(double range) const {
+  /// How much too far a target at this ideal slant range, whose echo takes `delay`, looked [m].
+  double slantError(double range, double delay) const {
     const double ground = std::sqrt(std::max(0.0, range * range - height * height));
-    return (ground * sway + height * heave) / range;
+    return (ground * (sway + sway_rate * delay) + height * (heave + heave_rate * delay)) / range;
   }
 };
 
@@ -32,8 +32,8 @@ void compensateLine(const EchoLines& lines, std::size_t i, const Deviation& devi
                     std::complex<float>* result) {
   const double smallest_shift = lines.sound_speed / (2 * bandwidth) / 4;
   for (int n = 0; n < lines.samples; ++n) {
-    const double range = lines.sound_speed / 2 * (lines.first_delay + n / lines.sample_rate);
-    const double error = range > 0 ? deviation.slantError(range) : 0;
+    const double delay = lines.first_delay + n / lines.sample_rate, range = lines.sound_speed / 2 * delay;
+    const double error = range > 0 ? deviation.slantError(range, delay) : 0;
     const double shift = std::abs(error) > smallest_shift ? 2 * error / lines.sound_speed * lines.sample_rate : 0;
     const std::complex<double> echo = shift != 0 ? interpolator.at(lines.line(i), lines.samples, n + shift) : std::complex<double>(lines.line(i)[n]);
     result[n] = std::complex<float>(echo * std::polar(1.0, 4 * kPi * lines.carrier / lines.sound_speed * error));
@@ -66,11 +66,12 @@ EchoLines compensateMotion(const EchoLines& lines, const StraightTrack& track, d
   const Interpolator interpolator;
   forEachTask(lines.paths.size(), options.threads, [&](std::size_t i) {
     const Eigen::Vector3d way = phaseCentre(lines.paths[i]) - track.origin;
-    const Deviation deviation{-way.dot(look), way.z(), track.origin.z() - options.bottom};
-    compensateLine(lines, i, deviation, bandwidth, interpolator, compensated.line(i));
     EchoPath& path = compensated.paths[i];
+    const Eigen::Vector3d rate = path.receiver_velocity / 2;  // the transmitter's place is past
+    const Deviation deviation{-way.dot(look), -rate.dot(look), way.z(), rate.z(), track.origin.z() - options.bottom};
+    compensateLine(lines, i, deviation, bandwidth, interpolator, compensated.line(i));
     path.transmitter = path.receiver = track.origin + way.dot(track.direction) * track.direction;
-    path.receiver_velocity.setZero();
+    path.receiver_velocity = path.receiver_velocity.dot(track.direction) * track.direction;
     path.forward = track.direction;
   });
   return compensated;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/imaging/range_compression.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "sas_motion/imaging/chirp.hpp"
@@ -34,6 +36,8 @@ Spectrum filterSpectrum(const SonarDescription& sonar, std::size_t length, const
   return filter;
 }
 
+bool isFinite(const std::complex<float>& value) { return std::isfinite(value.real()) && std::isfinite(value.imag()); }
+
 }  // namespace
 
 EchoLines compressRange(const EchoLines& raw, const SonarDescription& sonar, const CompressionOptions& options) {
@@ -47,7 +51,12 @@ EchoLines compressRange(const EchoLines& raw, const SonarDescription& sonar, con
   compressed.data.assign(raw.paths.size() * static_cast<std::size_t>(compressed.samples), {});
   const std::size_t length = fastLength(static_cast<std::size_t>(raw.samples));
   const Spectrum filter = filterSpectrum(sonar, length, options);
+  std::atomic<std::size_t> left_out{0};
   forEachTask(raw.paths.size(), options.threads, [&](std::size_t i) {
+    if (!std::all_of(raw.line(i), raw.line(i) + raw.samples, isFinite)) {
+      ++left_out;
+      return;
+    }
     Fourier fourier(length);
     Spectrum line(length);
     for (int n = 0; n < raw.samples; ++n) line[static_cast<std::size_t>(n)] = raw.line(i)[n];
@@ -56,6 +65,7 @@ EchoLines compressRange(const EchoLines& raw, const SonarDescription& sonar, con
     fourier.inverse(line);
     for (int n = 0; n < compressed.samples; ++n) compressed.line(i)[n] = std::complex<float>(line[static_cast<std::size_t>(n)]);
   });
+  compressed.left_out = left_out;
   return compressed;
 }
 

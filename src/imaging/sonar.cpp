@@ -13,6 +13,8 @@ double neededPingRate(const SonarDescription& sonar, double speed) {
   return speed / longest_advance;
 }
 
-double greatestPingRate(const SonarDescription& sonar) { return 1 / (2 * sonar.far_range / sonar.sound_speed + sonar.pulse_length); }
+double echoTime(const SonarDescription& sonar) { return 2 * sonar.far_range / sonar.sound_speed; }
+
+double greatestPingRate(const SonarDescription& sonar) { return 1 / (echoTime(sonar) + sonar.pulse_length); }
 
 }  // namespace sas_motion::imaging

@@ -79,4 +79,15 @@ ApertureFrame apertureFrame(const std::vector<PingPose>& poses_map, double altit
   return frame;
 }
 
+std::vector<PingPose> aperturePoses(const std::vector<PingPose>& poses_map, const ApertureFrame& frame, double altitude) {
+  std::vector<PingPose> poses;
+  double height = 0;
+  for (const auto& pose : poses_map) {
+    poses.push_back(frame.fromMap(pose));
+    height += poses.back().position.z() / static_cast<double>(poses_map.size());
+  }
+  for (auto& pose : poses) pose.position.z() += altitude - height;
+  return poses;
+}
+
 }  // namespace sas_motion::imaging

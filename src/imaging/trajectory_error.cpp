@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/imaging/trajectory_error.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <numeric>
 
 namespace sas_motion::imaging {
 namespace {
+
+constexpr int kMostSteps = 20;
+constexpr double kSettled = 1e-5;  // [m]
 
 /// From the middle of the pings to the target.
 Eigen::Vector3d wayTo(const std::vector<PingPose>& poses, const Eigen::Vector3d& target) {
@@ -19,10 +23,33 @@ double trackSpeed(const std::vector<double>& times, const std::vector<PingPose>&
   return (poses.back().position - poses.front().position).head<2>().norm() / (times.back() - times.front());
 }
 
+/// Where mean and trend move the image, for small ones: the mean moves it as a whole, a trend in the line of sight turns the track and so moves it along, by
+/// the slope times range over speed.
 Eigen::Vector3d imageShift(const Trend& along, const Trend& line_of_sight, double speed, const Eigen::Vector3d& way) {
   const double range = way.norm(), ground = way.head<2>().norm();
   const double outwards = -line_of_sight.mean * range / ground;
   return {along.mean + line_of_sight.slope * range / speed, std::copysign(1.0, way.y()) * outwards, 0};
+}
+
+/// The place in the plane of the bottom whose estimated paths fit the true ones by the target best, by Gauss and Newton from the first guess.
+Eigen::Vector3d bestFit(const std::vector<EchoPath>& truth, const std::vector<EchoPath>& estimate, const Eigen::Vector3d& target, const Eigen::Vector3d& guess,
+                        double sound_speed) {
+  Eigen::Vector3d place = guess;
+  for (int i = 0; i < kMostSteps; ++i) {
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+    for (std::size_t line = 0; line < truth.size(); ++line) {
+      const EchoPath& path = estimate[line];
+      const Eigen::Vector2d gradient = ((place - path.transmitter).normalized() + (place - path.receiver).normalized()).head<2>();
+      information += gradient * gradient.transpose();
+      slope += gradient * (pathLength(truth[line], target, sound_speed) - pathLength(path, place, sound_speed));
+    }
+    const Eigen::Vector2d step = information.ldlt().solve(slope);
+    if (!step.allFinite()) return guess;
+    place.head<2>() += step;
+    if (step.norm() < kSettled) return place;
+  }
+  return place.allFinite() ? place : guess;
 }
 
 /// Over all receivers of all pings.
@@ -69,7 +96,10 @@ ApertureTrajectoryError apertureTrajectoryError(const SonarDescription& sonar, c
   result.along = fitTrend(times, along);
   result.line_of_sight = fitTrend(times, slant);
   result.image_shift = imageShift(result.along, result.line_of_sight, trackSpeed(times, truth), way);
-  result.path = pathError(times, echoPaths(sonar, truth), echoPaths(sonar, estimate), target, target + result.image_shift, sonar.sound_speed);
+  const auto true_paths = echoPaths(sonar, truth), paths = echoPaths(sonar, estimate);
+  const Eigen::Vector3d image = bestFit(true_paths, paths, target, target + result.image_shift, sonar.sound_speed);
+  result.image_shift = image - target;
+  result.path = pathError(times, true_paths, paths, target, image, sonar.sound_speed);
   return result;
 }
 

@@ -5,28 +5,40 @@
 #include <array>
 #include <cmath>
 
-#include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
 
 namespace sas_motion::ins {
+
+Vector<3> rateOverGround(const NavigationState& ins, const Vector<3>& rate_body) {
+  return rate_body - ins.q_nav_body.conjugate() * earth::rotationRate(ins.latitude);
+}
+
 namespace {
 
-constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
-
 double markovDensity(double sigma, double time) { return 2 * sigma * sigma / time; }
+
+/// Velocity over the ground of a place on the body against the INS; body.
+Vector<3> leverVelocity(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& lever_body) {
+  return rateOverGround(ins, rate_body).cross(lever_body);
+}
 
 Vector<3> positionOf(const NavigationState& state) { return {state.longitude, state.latitude, state.height}; }
 
 }  // namespace
 
 const char* sensorName(Sensor sensor) {
-  constexpr std::array<const char*, kSensors> names{"gps", "dvl", "depth"};
+  constexpr std::array<const char*, kSensors> names{"gps", "dvl", "depth", "dpc"};
   return names[static_cast<std::size_t>(sensor)];
 }
 
 Vector<3>& leverOf(Parameters& parameters, Sensor sensor) {
-  if (sensor == Sensor::Gps) return parameters.gps_lever_body;
-  return sensor == Sensor::Dvl ? parameters.dvl_lever_body : parameters.depth_lever_body;
+  switch (sensor) {
+    case Sensor::Gps: return parameters.gps_lever_body;
+    case Sensor::Dvl: return parameters.dvl_lever_body;
+    case Sensor::Depth: return parameters.depth_lever_body;
+    case Sensor::Dpc: break;
+  }
+  return parameters.dpc_lever_body;
 }
 
 Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_nav) {
@@ -86,15 +98,20 @@ ErrorMatrix ErrorModel::dynamics(const Motion& motion) const {
   // Dead reckoning turns the reading by the computed attitude: C' v = C v + v x phi.
   const auto scale = unit_.segment<3>(kPosition).asDiagonal();
   F.block<3, 3>(kDvlPosition, kDvlVelocity) = scale * C;
-  F.block<3, 3>(kDvlPosition, kAttitude) = scale * cross(motion.state.velocity_nav);
+  F.block<3, 3>(kDvlPosition, kAttitude) = scale * crossMatrix(motion.state.velocity_nav);
   return unit_.cwiseInverse().asDiagonal() * F * unit_.asDiagonal();
+}
+
+ErrorMatrix ErrorModel::transitionMatrix(const Motion& motion, double T) const {
+  const ErrorMatrix FT = dynamics(motion) * T;
+  ErrorMatrix Phi = ErrorMatrix::Identity() + FT;
+  Phi.noalias() += 0.5 * FT * FT;
+  return Phi;
 }
 
 Transition<kStates> ErrorModel::transition(const Motion& motion, double T, const Errors& mean) const {
   Transition<kStates> step;
-  const ErrorMatrix FT = dynamics(motion) * T;
-  step.F = ErrorMatrix::Identity() + FT;
-  step.F.noalias() += 0.5 * FT * FT;
+  step.F = transitionMatrix(motion, T);
   step.Q.noalias() = 0.5 * T * (step.F * density_.asDiagonal() * step.F.transpose());
   step.Q.diagonal() += 0.5 * T * density_;
   step.mean.noalias() = step.F * mean;
@@ -122,19 +139,15 @@ LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const 
   difference.x() = wrapAngle(difference.x());
   z.H.setZero();
   z.H.block<3, 3>(0, kPosition).setIdentity();
-  z.H.block<3, 3>(0, kAttitude) = kMilliradian * cross(lever);
+  z.H.block<3, 3>(0, kAttitude) = kMilliradian * crossMatrix(lever);
   z.H.block<3, 3>(0, kGpsPosition) = -Matrix<3>::Identity();
   z.R = parameters_.gps_white.cwiseAbs2().asDiagonal();
   z.innovation = difference.cwiseProduct(metresPerPosition()) + lever - z.H * mean;
   return z;
 }
 
-Vector<3> ErrorModel::rateOverGround(const NavigationState& ins, const Vector<3>& rate_body) const {
-  return rate_body - ins.q_nav_body.conjugate() * earth::rotationRate(ins.latitude);
-}
-
 Vector<3> ErrorModel::velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const {
-  return velocity_dvl_body - rateOverGround(ins, rate_body).cross(parameters_.dvl_lever_body);
+  return velocity_dvl_body - leverVelocity(ins, rate_body, parameters_.dvl_lever_body);
 }
 
 LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body,
@@ -143,7 +156,7 @@ LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const 
   const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
   z.H.setZero();
   z.H.block<3, 3>(0, kVelocity) = C_body_nav;
-  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * cross(ins.velocity_nav);
+  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * crossMatrix(ins.velocity_nav);
   z.H.block<3, 3>(0, kDvlVelocity) = -Matrix<3>::Identity();
   z.R = parameters_.dvl_white * parameters_.dvl_white * Matrix<3>::Identity();
   z.innovation = C_body_nav * ins.velocity_nav - velocityOfIns(ins, rate_body, velocity_body) - z.H * mean;
@@ -155,11 +168,28 @@ LinearMeasurement<kStates, 1> ErrorModel::depth(const NavigationState& ins, doub
   const Vector<3> lever = ins.q_nav_body * parameters_.depth_lever_body;
   z.H.setZero();
   z.H(0, kPosition + 2) = 1;
-  z.H.block<1, 3>(0, kAttitude) = kMilliradian * cross(lever).row(2);
+  z.H.block<1, 3>(0, kAttitude) = kMilliradian * crossMatrix(lever).row(2);
   z.R(0, 0) = parameters_.depth_white * parameters_.depth_white;
   z.innovation = Vector<1>(ins.height + lever.z() - height) - z.H * mean;
   return z;
 }
+
+LinearMeasurement<kStates, 2> ErrorModel::dpc(const NavigationState& ins, const Vector<3>& rate_body, const ArrayVelocity& array, const Errors& mean) const {
+  LinearMeasurement<kStates, 2> z;
+  const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
+  Matrix<2, 3> axes;
+  axes << Vector<3>::UnitY().transpose(), array.sight_body.transpose();
+  z.H.setZero();
+  z.H.block<2, 3>(0, kVelocity) = axes * C_body_nav;
+  z.H.block<2, 3>(0, kAttitude) = -kMilliradian * axes * C_body_nav * crossMatrix(ins.velocity_nav);
+  z.R = array.variance.asDiagonal();
+  z.innovation = axes * (C_body_nav * ins.velocity_nav + leverVelocity(ins, rate_body, parameters_.dpc_lever_body)) - array.velocity - z.H * mean;
+  return z;
+}
+
+Matrix<3> crossMatrix(const Vector<3>& v) { return (Matrix<3>() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished(); }
+
+Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment) { return (1 + scale) * (Matrix<3>::Identity() - crossMatrix(misalignment)); }
 
 NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit) {
   NavigationState state = ins;

@@ -24,6 +24,15 @@ Audit auditOf(const Aiding& reading, const Update<Gaussian<kStates>, M>& update)
 
 }  // namespace
 
+Errors gapVariance(const NavigatorOptions& options, double gap, double part) {
+  const double force = options.bridge_force, rate = options.bridge_rate / kMilliradian;
+  Errors variance = Errors::Zero();
+  variance.segment<3>(kVelocity).setConstant(force * force * gap * part);
+  variance.segment<3>(kPosition).setConstant(0.25 * force * force * gap * gap * gap * part);
+  variance.segment<3>(kAttitude).setConstant(rate * rate * gap * part);
+  return variance;
+}
+
 template <int M>
 Update<Gaussian<kStates>, M> Unaided::update(const Gaussian<kStates>& prior, const LinearMeasurement<kStates, M>& z) const {
   return examine(prior, z);
@@ -109,9 +118,9 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
     case Sensor::Gps: {
       update(model_.gps(ins, reading.fix, belief_.mean));
       Fix fix{reading.stamp, reading.fix};
+      fix.state.q_nav_body = fused().q_nav_body;
       const Errors& mean = belief_.mean;
-      fix.state.q_nav_body = fused().q_nav_body;  // a fix does not say how the body lies
-      displace(fix.state, -(fused().q_nav_body * model_.parameters().gps_lever_body) - mean.segment<3>(kGpsPosition));
+      displace(fix.state, -(fix.state.q_nav_body * model_.parameters().gps_lever_body) - mean.segment<3>(kGpsPosition));
       gps_ = fix;
       break;
     }
@@ -120,6 +129,7 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
       velocity_body_ = model_.velocityOfIns(ins, ins_.rate_body(), reading.velocity_body);
       break;
     case Sensor::Depth: update(model_.depth(ins, reading.fix.height, belief_.mean)); break;
+    case Sensor::Dpc: update(model_.dpc(ins, ins_.rate_body(), reading.array, belief_.mean)); break;
   }
   if (options_.feedback) feedBack();
 }
@@ -143,15 +153,9 @@ NavigationState Navigator<Filter>::smooth() const {
   return state;
 }
 
-/// A part of a gap: the variances of its parts add up to those of a force and a rate that are wrong throughout.
 template <class Filter>
 void Navigator<Filter>::widenForGap(double part) {
-  const double force = options_.bridge_force, rate = options_.bridge_rate / model_.unit()(kAttitude);
-  Errors variance = Errors::Zero();
-  variance.segment<3>(kVelocity).setConstant(force * force * gap_ * part);
-  variance.segment<3>(kPosition).setConstant(0.25 * force * force * gap_ * gap_ * gap_ * part);
-  variance.segment<3>(kAttitude).setConstant(rate * rate * gap_ * part);
-  addCovariance(belief_, ErrorMatrix(variance.asDiagonal()));
+  addCovariance(belief_, ErrorMatrix(gapVariance(options_, gap_, part).asDiagonal()));
 }
 
 template <class Filter>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/ros/ins_settings.hpp"
 
+#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
+
 namespace sas_motion::ros_side {
 
 InsSettings InsSettings::fromFile(const std::string& file) {
@@ -20,7 +22,15 @@ InsSettings InsSettings::fromFile(const std::string& file) {
   return settings;
 }
 
-std::unique_ptr<ins::Estimator> makeInsEstimator(const std::string& name, const ins::Config& config) { return ins::makeEstimator(name, config); }
-const std::vector<std::string>& insEstimatorNames() { return ins::estimatorNames(); }
+std::unique_ptr<ins::Estimator> makeInsEstimator(const std::string& name, const ins::Config& config) { return ins::makeAnyEstimator(name, config); }
+
+const std::vector<std::string>& insEstimatorNames() {
+  static const std::vector<std::string> names = [] {
+    auto all = ins::estimatorNames();
+    all.insert(all.end(), {"batch", "fixed_lag"});
+    return all;
+  }();
+  return names;
+}
 
 }  // namespace sas_motion::ros_side

@@ -40,8 +40,8 @@ void readWaves(YamlSection yaml, Track& track) {
   yaml.finish();
 }
 
-void readSensor(YamlSection& yaml, Scenario::Readings& readings, Vector<3>& lever) {
-  yaml.number("rate", readings.rate, {0.001, 1e3});
+void readSensor(YamlSection& yaml, Scenario::Readings& readings, Vector<3>& lever, double least_rate = 0.001) {
+  yaml.number("rate", readings.rate, {least_rate, 1e3});
   readings.noise = Scenario::readNoise(yaml, "noise");
   readings.outages = Scenario::readOutages(yaml, "outages");
   readVector<3>(yaml, "lever_arm", lever, -1e3);
@@ -49,6 +49,19 @@ void readSensor(YamlSection& yaml, Scenario::Readings& readings, Vector<3>& leve
 }
 
 }  // namespace
+
+Vector<3> Scenario::Dpc::sightBody() const { return {(starboard ? 1 : -1) * std::cos(depression), 0, -std::sin(depression)}; }
+
+void Scenario::readDpc(YamlSection yaml) {
+  yaml.number("white_along", dpc.white_along, {kTiny, 10});
+  yaml.number("white_sight", dpc.white_sight, {kTiny, 10});
+  yaml.angle("depression_deg", dpc.depression, {0, 90});
+  std::string side = dpc.starboard ? "starboard" : "port";
+  yaml.text("side", side);
+  if (side != "starboard" && side != "port") yaml.fail("side", fmt::format("is '{}' but must be starboard or port", side));
+  dpc.starboard = side == "starboard";
+  readSensor(yaml, sensor(Sensor::Dpc), parameters.dpc_lever_body, 0);
+}
 
 NoiseMix Scenario::readNoise(YamlSection& owner, const std::string& key) {
   NoiseMix mix = NoiseMix::read(owner, key);
@@ -95,6 +108,7 @@ Scenario Scenario::read(YamlSection yaml) {
   auto depth = yaml.section("depth");
   readDepthErrors(depth, p);
   readSensor(depth, scenario.sensor(Sensor::Depth), p.depth_lever_body);
+  scenario.readDpc(yaml.section("dpc"));
   auto begin = yaml.section("initial");
   readVector<3>(begin, "position", p.start_position, kTiny);
   begin.number("velocity", p.start_velocity, {kTiny, 100});

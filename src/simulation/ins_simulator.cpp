@@ -12,7 +12,7 @@
 namespace sas_motion::ins {
 namespace {
 
-constexpr std::uint64_t kStartStream = 1, kImuStream = 2, kMarkovStream = 10, kRowStream = 20, kSpellStream = 40;
+constexpr std::uint64_t kStartStream = 1, kImuStream = 2, kMarkovStream = 10, kRowStream = 20, kSpellStream = 40, kDvlMountingStream = 60;
 
 Vector<3> gaussians(Random& random) {
   const double x = random.gaussian(), y = random.gaussian();
@@ -53,13 +53,23 @@ void addImuErrors(std::vector<ImuReading>& readings, const Parameters& p, std::u
   }
 }
 
+/// How this run's DVL is scaled and mounted.
+Matrix<3> drawnDistortion(const Parameters& p, std::uint64_t seed) {
+  Random random(seed, kDvlMountingStream);
+  const double scale = p.dvl_scale * random.gaussian();
+  return dvlDistortion(scale, p.dvl_misalignment * gaussians(random));
+}
+
 /// One of the sensors that aid, with what it remembers.
 class AidingSource {
  public:
-  AidingSource(const Scenario& scenario, Sensor sensor, std::uint64_t seed)
+  AidingSource(const Scenario& scenario, const Trajectory& trajectory, Sensor sensor, std::uint64_t seed)
       : parameters_(scenario.parameters),
+        dpc_(scenario.dpc),
+        trajectory_(trajectory),
         readings_(scenario.sensor(sensor)),
         sensor_(sensor),
+        distortion_(drawnDistortion(scenario.parameters, seed)),
         random_(seed, kMarkovStream + static_cast<std::uint64_t>(sensor)),
         markov_(random_) {
     const auto first = kRowStream + 4 * static_cast<std::uint64_t>(sensor);
@@ -89,6 +99,7 @@ class AidingSource {
         break;
       case Sensor::Dvl: reading = dvl(truth, parameters_.dvl_markov * markov_.step(T, parameters_.dvl_time, random_) + parameters_.dvl_white * noise); break;
       case Sensor::Depth: reading = depth(truth, parameters_.depth_white * noise(0)); break;
+      case Sensor::Dpc: reading = dpc(truth, time, {dpc_.white_along * noise(0), dpc_.white_sight * noise(1)}); break;
     }
     if (frozen && last_) reading = *last_;
     reading.stamp = stampFromSeconds(time);
@@ -109,7 +120,22 @@ class AidingSource {
     const auto& state = truth.state;
     const Vector<3> rate = truth.rateBody() - state.q_nav_body.conjugate() * earth::rotationRate(state.latitude);
     Aiding reading;
-    reading.velocity_body = state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(parameters_.dvl_lever_body) + error;
+    reading.velocity_body = distortion_ * (state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(parameters_.dvl_lever_body)) + error;
+    return reading;
+  }
+  /// From a ping half an interval earlier to one half an interval later; on the axes between.
+  Aiding dpc(const TruthSample& truth, double time, const Vector<2>& error) const {
+    const double half = 0.5 / readings_.rate;
+    const auto array = [&](double t) {
+      NavigationState state = trajectory_.at(t).state;
+      displace(state, state.q_nav_body * parameters_.dpc_lever_body);
+      return state;
+    };
+    const Vector<3> moved_body = truth.state.q_nav_body.conjugate() * displacement(array(time - half), array(time + half));
+    Aiding reading;
+    reading.array.sight_body = dpc_.sightBody();
+    reading.array.velocity = readings_.rate * Vector<2>(moved_body.y(), moved_body.dot(reading.array.sight_body)) + error;
+    reading.array.variance << dpc_.white_along * dpc_.white_along, dpc_.white_sight * dpc_.white_sight;
     return reading;
   }
   Aiding depth(const TruthSample& truth, double error) const {
@@ -120,8 +146,11 @@ class AidingSource {
   }
 
   const Parameters& parameters_;
+  const Scenario::Dpc& dpc_;
+  const Trajectory& trajectory_;
   const Scenario::Readings& readings_;
   Sensor sensor_;
+  Matrix<3> distortion_;  // of the DVL
   Random random_;
   Markov markov_;
   std::vector<NoiseSource> rows_;
@@ -142,11 +171,15 @@ Recording simulate(const Scenario& scenario, const Trajectory& trajectory, std::
   run.start = wrongStart(trajectory.at(0).state, scenario.parameters, seed);
   run.imu = perfectImu(trajectory, scenario.imu_rate, scenario.duration);
   addImuErrors(run.imu, scenario.parameters, seed);
-  for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth}) {
-    AidingSource source(scenario, sensor, seed);
+  for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth, Sensor::Dpc}) {
     const double rate = scenario.sensor(sensor).rate;
-    for (long k = 1; static_cast<double>(k) / rate <= scenario.duration + 1e-9; ++k)
-      source.read(static_cast<double>(k) / rate, trajectory.at(static_cast<double>(k) / rate), run.aiding);
+    if (!(rate > 0)) continue;
+    AidingSource source(scenario, trajectory, sensor, seed);
+    const double early = sensor == Sensor::Dpc ? 0.5 / rate : 0;  // the middle between two pings
+    for (long k = 1; static_cast<double>(k) / rate <= scenario.duration + 1e-9; ++k) {
+      const double time = static_cast<double>(k) / rate - early;
+      source.read(time, trajectory.at(time), run.aiding);
+    }
   }
   std::stable_sort(run.aiding.begin(), run.aiding.end(), [](const LabelledAiding& a, const LabelledAiding& b) { return a.reading.stamp < b.reading.stamp; });
   return run;

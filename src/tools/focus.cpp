@@ -8,7 +8,8 @@
 
 #include <filesystem>
 
-#include "focus_bench.hpp"
+#include "focus_document.hpp"
+#include "focus_window.hpp"
 #include "main_guard.hpp"
 #include "progress.hpp"
 #include "sas_motion/config/focus_config.hpp"
@@ -19,10 +20,11 @@ namespace {
 using namespace sas_motion;
 using namespace sas_motion::imaging;
 
-struct Options : FocusOptions {
-  std::string config;
+struct Options {
+  std::string bag, out, config;
   std::vector<std::string> trajectories;
-  bool figures = true;
+  int jobs = 1;
+  bool autofocus = false, figures = true;
 };
 
 /// By the script beside this tool, which reads what stands in the folder.
@@ -44,12 +46,14 @@ void run(const Options& options) {
   const auto trajectories = readTrajectories(options.bag, options.trajectories);
   const FocusPings pings = choosePings(options.bag, trajectories, result.settings);
   result.window = pings.window;
+  result.places = targetPlaces(result.settings);
   {
     Progress progress("focus", static_cast<double>(trajectories.size() + 1), 0);
-    FocusBench bench(options, result.settings, pings);
+    FocusBench bench(result.settings, pings.times, pings.poses.front(), options.jobs);
     progress.advance(1);
     for (std::size_t i = 0; i < trajectories.size(); ++i) {
-      result.trajectories.push_back(bench.focus(trajectories[i], i));
+      result.trajectories.push_back(focusAlong(bench, pings.poses[i], options.out, trajectories[i].name, options.autofocus));
+      result.trajectories.back().topic = trajectories[i].topic;
       progress.advance(1);
     }
   }

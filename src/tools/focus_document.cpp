@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "focus_document.hpp"
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "focus_result.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace sas_motion {
@@ -83,8 +84,8 @@ std::string tableHead() {
 std::string focusDocument(const FocusResult& result) {
   const double wavelength = result.settings.sonar.wavelength();
   json all{{"schema", "sas_motion/focus/1"}, {"bag", result.bag}, {"window", windowJson(result.window)}, {"wavelength", wavelength}};
-  const auto places = targetPlaces(result.settings);
-  for (std::size_t i = 0; i < places.size(); ++i) all["targets"].push_back({{"range", result.settings.targets[i].range}, {"place", toJson(places[i])}});
+  for (std::size_t i = 0; i < result.places.size(); ++i)
+    all["targets"].push_back({{"range", result.settings.targets[i].range}, {"place", toJson(result.places[i])}});
   for (const auto& trajectory : result.trajectories) {
     all["order"].push_back(trajectory.name);
     all["trajectories"][trajectory.name] = toJson(trajectory, wavelength);

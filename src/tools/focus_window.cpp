@@ -15,9 +15,6 @@ namespace {
 
 constexpr double kStandstill = 0.01;  // m/s
 
-/// How long the receivers wait for the last echo of a ping [s].
-double echoTime(const SonarDescription& sonar) { return 2 * sonar.far_range / sonar.sound_speed; }
-
 /// Truth where all trajectories are there.
 Trajectory commonTruth(const std::vector<RecordedTrajectory>& trajectories) {
   const auto& truth = trajectories.front().trajectory.poses();
@@ -98,9 +95,9 @@ FocusPings choosePings(const std::string& bag, const std::vector<RecordedTraject
     throw std::runtime_error(
         fmt::format("{}: a window of {:.4g} s holds one ping at {:.4g} Hz; set a longer aperture.duration", bag, window.duration, window.ping_rate));
   for (const Stamp stamp : stamps) pings.times.push_back(secondsBetween(begin, stamp));
-  for (const auto& t : trajectories) pings.poses.push_back(pingPoses(t.trajectory, stamps, echoTime(settings.sonar)));
-  window.frame = apertureFrame(pings.poses.front(), settings.sonar.altitude);
-  for (auto& poses : pings.poses) std::transform(poses.begin(), poses.end(), poses.begin(), [&](const PingPose& pose) { return window.frame.fromMap(pose); });
+  const double interval = echoTime(settings.sonar), altitude = settings.sonar.altitude;
+  window.frame = apertureFrame(pingPoses(truth.trajectory, stamps, interval), altitude);
+  for (const auto& t : trajectories) pings.poses.push_back(aperturePoses(pingPoses(t.trajectory, stamps, interval), window.frame, altitude));
   return pings;
 }
 

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "focus_input.hpp"
-#include "focus_result.hpp"
+#include "sas_motion/imaging/focus_result.hpp"
 
 namespace sas_motion {
 
 /// A window of the track with the pings that every trajectory puts into it.
 struct FocusPings {
-  FocusWindow window;
+  imaging::FocusWindow window;
   std::vector<double> times;                          ///< of the pings [s]
   std::vector<std::vector<imaging::PingPose>> poses;  ///< of each trajectory, in the frame of the aperture
 };

@@ -116,6 +116,7 @@ void InsRecorder::aiding(const LabelledAiding& labelled) {
     case Sensor::Gps: fix(reading, of); break;
     case Sensor::Dvl: twist(reading, of); break;
     case Sensor::Depth: depth(reading, of); break;
+    case Sensor::Dpc: return;  // there is no message for it
   }
   sas_motion::MeasurementLabel label;
   label.header.stamp = of.stamp;

@@ -11,10 +11,13 @@
 #include <numeric>
 #include <thread>
 
+#include "focus_document.hpp"
 #include "main_guard.hpp"
 #include "sas_motion/campaign/ordered_tasks.hpp"
 #include "sas_motion/campaign/suite.hpp"
+#include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
+#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 #include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
 
 namespace {
@@ -23,7 +26,7 @@ using namespace sas_motion;
 using nlohmann::json;
 
 struct Options {
-  std::string suite, tasks;
+  std::string suite, tasks, images;
   int runs = 0;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool plan = false, bounds = false, trace = false;
@@ -54,6 +57,12 @@ json planOf(const Suite& suite) {
   return plan;
 }
 
+json toJson(const Named<double>& values) {
+  json object = json::object();
+  for (const auto& [name, value] : values) object[name] = value;  // null where it is not finite
+  return object;
+}
+
 json toJson(const EstimatorReport& report) {
   json result{{"diverged", report.diverged}, {"locked_out", report.locked_out}, {"samples", report.samples}};
   for (const auto& [group, error] : report.errors) result[group] = {{"rmse", error.rmse}, {"p95", error.p95}, {"max", error.max}};
@@ -62,6 +71,7 @@ json toJson(const EstimatorReport& report) {
   result["aperture_across"] = orNull(report.aperture_across);
   result["precision"] = orNull(report.precision);
   result["recall"] = orNull(report.recall);
+  for (const auto& window : report.windows) result["windows"].push_back(toJson(window));
   return result;
 }
 
@@ -124,13 +134,30 @@ json tracesOf(const Suite& suite) {
   return all;
 }
 
+/// A folder a campaign that makes images, and in it one a law.
+void writeImages(const Suite& suite, const std::string& folder) {
+  const auto named = [](std::string name) {
+    std::replace(name.begin(), name.end(), '/', '_');
+    return "/" + name;
+  };
+  for (const auto& campaign : suite.campaigns)
+    for (std::size_t law = 0; law < campaign->laws.size(); ++law) {
+      const std::string place = folder + named(campaign->title) + named(campaign->laws[law].name);
+      const auto result = campaign->images(law, suite.first_seed, place);
+      if (!result) continue;
+      writeFile(place + "/focus.json", focusDocument(*result));
+      fmt::print("{}", focusTable(*result));
+    }
+}
+
 void run(const Options& options) {
-  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter);
+  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter, ins::makeAnyEstimator);
   if (options.runs > 0) suite.runs = options.runs;
   if (options.plan) fmt::print("{}\n", planOf(suite).dump());
   if (!options.tasks.empty()) printTasks(suite, options);
   if (options.bounds) fmt::print("{}\n", boundsOf(suite).dump());
   if (options.trace) fmt::print("{}\n", tracesOf(suite).dump());
+  if (!options.images.empty()) writeImages(suite, options.images);
 }
 
 }  // namespace
@@ -146,6 +173,7 @@ int main(int argc, char** argv) {
   what->add_option("--tasks", options.tasks, "FIRST:LAST: the results of these runs, a line each, in order");
   what->add_flag("--bounds", options.bounds, "posterior Cramer-Rao bounds");
   what->add_flag("--trace", options.trace, "the first seed of every law over time");
+  what->add_option("--images", options.images, "folder for the images of the first seed of every law, which plot_focus.py draws; and their measures");
   what->require_option(1);
   return runTool(app, argc, argv, [&] { run(options); });
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "campaign/suites.hpp"
-#include "sas_motion/simulation/ins_scenario.hpp"
+#include "sas_motion/simulation/ins_simulator.hpp"
 
 namespace sas_motion {
 namespace {
@@ -67,6 +67,33 @@ TEST(InsScenario, ReadsItsFileAndRefusesWhatItDoesNotKnow) {
   refused("{imu: {rate: 1}}");
   refused("{start: [89, 0, 0]}");
   refused("{waves: {roll: {amplitude: 1}}}");
+  refused("{dpc: {rate: -1}}");
+  refused("{dpc: {side: aft}}");
+  const auto dpc = ins::Scenario::read(YamlSection::fromText("{dpc: {rate: 4, side: port, depression_deg: 30, lever_arm: [1, 2, 3]}}", "test"));
+  EXPECT_DOUBLE_EQ(dpc.sensor(ins::Sensor::Dpc).rate, 4);
+  EXPECT_TRUE(dpc.dpc.sightBody().isApprox(Vector<3>(-std::cos(kPi / 6), 0, -0.5)));
+  EXPECT_EQ(dpc.parameters.dpc_lever_body, Vector<3>(1, 2, 3));
+  EXPECT_EQ(scenario.sensor(ins::Sensor::Dpc).rate, 0) << "absent unless asked for";
+}
+
+TEST(InsScenario, ADvlsMountingChangesItsReadingsAlone) {
+  auto scenario = ins::Scenario::fromFile(SAS_MOTION_SOURCE_DIR "/config/scenarios/ins/transect_dvl_mounting.yaml");
+  EXPECT_DOUBLE_EQ(scenario.parameters.dvl_scale, 0.01);
+  EXPECT_DOUBLE_EQ(scenario.parameters.dvl_misalignment, 0.5 * kRadPerDeg);
+  scenario.duration = 10;
+  auto plain = scenario;
+  plain.parameters.dvl_scale = plain.parameters.dvl_misalignment = 0;
+  const ins::Trajectory trajectory(scenario.track, scenario.duration);
+  const auto mounted = ins::simulate(scenario, trajectory, 3), straight = ins::simulate(plain, trajectory, 3);
+  EXPECT_EQ(mounted.imu.back().force_body, straight.imu.back().force_body);
+  ASSERT_EQ(mounted.aiding.size(), straight.aiding.size());
+  for (std::size_t k = 0; k < mounted.aiding.size(); ++k) {
+    const auto &a = mounted.aiding[k].reading, &b = straight.aiding[k].reading;
+    EXPECT_EQ(a.fix.latitude, b.fix.latitude);
+    if (a.sensor == ins::Sensor::Dvl) {
+      EXPECT_GT((a.velocity_body - b.velocity_body).norm(), 1e-3);
+    }
+  }
 }
 
 }  // namespace

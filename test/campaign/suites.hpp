@@ -13,10 +13,10 @@
 namespace sas_motion::testing {
 
 /// A suite from text, read as a file of its own.
-inline Suite suiteOf(const std::string& text) {
+inline Suite suiteOf(const std::string& text, const ins::EstimatorFactory& make_ins = ins::makeEstimator) {
   const auto path = std::filesystem::path(::testing::TempDir()) / ("suite_" + std::to_string(std::hash<std::string>()(text)) + ".yaml");
   std::ofstream(path) << text;
-  return Suite::fromFile(path, towfish::makeEstimator);
+  return Suite::fromFile(path, towfish::makeEstimator, {}, make_ins);
 }
 
 /// A suite of one campaign on the paper's scenario, of `duration` seconds.

@@ -4,6 +4,8 @@
 
 #include <hwy/targets.h>
 
+#include <limits>
+
 #include "imaging/imaging_support.hpp"
 
 namespace sas_motion::imaging::testing {
@@ -96,6 +98,24 @@ TEST(Backprojection, LinesThatLookAwayAreLeftOut) {
     if (std::abs((kTarget - path.transmitter).normalized().x()) < narrow.half_angle) heard += beamAmplitude(path, kTarget, sonar);
   EXPECT_NEAR(some, heard, 0.02 * heard);
   EXPECT_LT(some, 0.8 * whole);
+}
+
+TEST(Backprojection, WhatIsNotFiniteIsLeftOutAndCounted) {
+  // GIVEN echoes of which one line has a sample that is no number, and another was heard nobody knows where
+  const SonarDescription sonar = smallSonar();
+  const auto poses = track(60, 0.05);
+  auto raw = simulateEchoes(sonar, echoPaths(sonar, poses), points({kTarget}), {});
+  raw.line(7)[100] = {std::numeric_limits<float>::quiet_NaN(), 0};
+  raw.line(20)[raw.samples - 1] = {0, std::numeric_limits<float>::infinity()};
+  EchoLines lines = compressRange(raw, sonar, {});
+  EXPECT_EQ(lines.left_out, 2u);
+  lines.paths[33].transmitter.x() = std::numeric_limits<double>::quiet_NaN();
+  // THEN the image is that of the other lines
+  auto others = poses;
+  for (const int bad : {33, 20, 7}) others.erase(others.begin() + bad);
+  const ImageGrid grid = gridAround(kTarget, 40, 40);
+  const Image expected = backproject(compressRange(simulateEchoes(sonar, echoPaths(sonar, others), points({kTarget}), {}), sonar, {}), grid, {});
+  EXPECT_LT(relativeError(backproject(lines, grid, {}), expected), -60);
 }
 
 TEST(Backprojection, RefusesWhatDoesNotFitAndSaysSo) {

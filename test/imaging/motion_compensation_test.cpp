@@ -40,6 +40,23 @@ TEST_P(Compensated, RefocusesNearAndFarAsExactBackprojectionDoes) {
 }
 INSTANTIATE_TEST_SUITE_P(PhaseOnlyAndWithShift, Compensated, ::testing::Values(0.003, 0.03));
 
+TEST(Compensation, FollowsReceiversThatSwayWhileTheEchoIsUnderWay) {
+  SonarDescription sonar = smallSonar();
+  sonar.element = 0.25;
+  sonar.stop_and_hop = false;
+  auto poses = track(60, 0.05, 0.003);
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].velocity += Eigen::Vector3d(0, 0.3, 0.2) * std::sin(0.7 * static_cast<double>(i));
+  const EchoLines lines = compressedEchoes(sonar, echoPaths(sonar, poses), points({kNear}));
+  EchoLines stopped = lines;
+  for (auto& path : stopped.paths) path.receiver_velocity.setZero();
+  const auto peak = [&](const EchoLines& recorded) {
+    return focused(compensateMotion(recorded, {{0, 0, 10}, {1, 0, 0}}, sonar.bandwidth, {}), kNear).range.peak_power;
+  };
+  const double exact = focused(lines, kNear).range.peak_power;
+  EXPECT_NEAR(10 * std::log10(peak(lines) / exact), 0, 0.3);
+  EXPECT_LT(10 * std::log10(peak(stopped) / exact), -3);
+}
+
 TEST(StraightTrack, IsTheLineThroughThePhaseCentres) {
   EchoLines lines;
   for (int i = 0; i < 50; ++i) {

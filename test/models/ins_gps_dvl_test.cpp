@@ -99,6 +99,7 @@ class InsMeasurements : public ::testing::Test {
     parameters_.gps_lever_body << 0.4, -1.2, 3.5;
     parameters_.dvl_lever_body << 0.3, 2, -0.5;
     parameters_.depth_lever_body << 0.1, 1, -0.2;
+    parameters_.dpc_lever_body << 0.5, -1, -0.4;
   }
 
   template <class Measure>
@@ -134,6 +135,21 @@ TEST_F(InsMeasurements, DvlSeesVelocityAndAttitudeOnItsAxes) {
   const Vector<3> reading = truth_.q_nav_body.conjugate() * truth_.velocity_nav + over_ground.cross(parameters_.dvl_lever_body);
   size_.head<3>().setConstant(0.01);
   expectJacobian([&](const ErrorModel& model, const NavigationState& ins, const Errors& mean) { return model.dvl(ins, rate, reading, mean); }, size_);
+}
+
+TEST_F(InsMeasurements, DpcSeesVelocityAndAttitudeForwardAndAlongItsSight) {
+  const Vector<3> rate(0.02, -0.01, 0.05);
+  const Vector<3> over_ground = rate - truth_.q_nav_body.conjugate() * earth::rotationRate(truth_.latitude);
+  const Vector<3> array_body = truth_.q_nav_body.conjugate() * truth_.velocity_nav + over_ground.cross(parameters_.dpc_lever_body);
+  ArrayVelocity reading;
+  reading.sight_body << 0.9, 0, -std::sqrt(1 - 0.81);
+  reading.velocity << array_body.y(), array_body.dot(reading.sight_body);
+  reading.variance << 4e-6, 1e-8;
+  size_.head<3>().setConstant(0.01);
+  expectJacobian([&](const ErrorModel& model, const NavigationState& ins, const Errors& mean) { return model.dpc(ins, rate, reading, mean); }, size_);
+  const auto z = ErrorModel(parameters_, truth_).dpc(truth_, rate, reading, Errors::Zero());
+  EXPECT_TRUE(z.R.diagonal().isApprox(reading.variance));
+  EXPECT_TRUE(z.H.rightCols<18>().isZero(0)) << "it has no errors of its own";
 }
 
 TEST_F(InsMeasurements, DepthSeesHeight) {

@@ -208,6 +208,67 @@ TEST(InsNavigator, LivesThroughAGapOfTheInertialUnit) {
   EXPECT_LT(error.norm(), 20) << "the INS alone is 100 m off";
 }
 
+Scenario withMicronavigation(Scenario scenario) {
+  scenario.sensor(Sensor::Dpc).rate = 8;
+  scenario.parameters.dpc_lever_body << 0.5, 1, -0.3;
+  scenario.dpc.white_sight = 0.3e-3;
+  return scenario;
+}
+
+/// RMS after the first 60 s of the errors forward and along the sight of micronavigation [m/s].
+Vector<2> velocityErrors(const Scenario& scenario, std::uint64_t seed) {
+  const Trajectory trajectory(scenario.track, scenario.duration);
+  const Recording recording = simulate(scenario, trajectory, seed);
+  Ckf27 navigator({}, scenario.parameters, recording.start, 0, {});
+  Vector<2> squares = Vector<2>::Zero();
+  int count = 0;
+  run(navigator, recording, [&](const auto& n) {
+    const double time = secondsBetween(0, n.stamp());
+    if (time < 60) return;
+    const NavigationState truth = trajectory.at(time).state, fused = n.fused();
+    const Vector<3> error_body = fused.q_nav_body.conjugate() * fused.velocity_nav - truth.q_nav_body.conjugate() * truth.velocity_nav;
+    squares += Vector<2>(error_body.y(), error_body.dot(scenario.dpc.sightBody())).cwiseAbs2();
+    ++count;
+  });
+  return (squares / count).cwiseSqrt();
+}
+
+TEST(InsNavigator, MicronavigationSharpensTheVelocityOnItsAxes) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Vector<2> without = velocityErrors(shortScenario(180), seed), with = velocityErrors(withMicronavigation(shortScenario(180)), seed);
+    EXPECT_LT(with.x(), 0.5 * without.x());
+    EXPECT_LT(with.y(), 0.5 * without.y());
+  }
+}
+
+TEST(InsSimulator, MicronavigationIsTheMeanVelocityOfTheArrayAndChangesNoOtherReading) {
+  Scenario scenario = withMicronavigation(shortScenario(20));
+  scenario.dpc.white_along = scenario.dpc.white_sight = 1e-9;
+  const Trajectory trajectory(scenario.track, scenario.duration);
+  const Recording recording = simulate(scenario, trajectory, 7);
+  Vector<2> squares = Vector<2>::Zero();
+  std::vector<LabelledAiding> others;
+  for (const auto& one : recording.aiding) {
+    if (one.reading.sensor != Sensor::Dpc) {
+      others.push_back(one);
+      continue;
+    }
+    const TruthSample truth = trajectory.at(secondsBetween(0, one.reading.stamp));
+    const auto z = ErrorModel(scenario.parameters, truth.state).dpc(truth.state, truth.rateBody(), one.reading.array, Errors::Zero());
+    squares += z.innovation.cwiseAbs2() / 160;
+  }
+  EXPECT_EQ(recording.aiding.size() - others.size(), 160u);
+  EXPECT_LT(std::sqrt(squares.x()), 0.2e-3) << "the mean over 0.125 s stands for the velocity in its middle";
+  EXPECT_LT(std::sqrt(squares.y()), 0.2e-3);
+  scenario.sensor(Sensor::Dpc).rate = 0;
+  const auto plain = simulate(scenario, trajectory, 7).aiding;
+  ASSERT_EQ(plain.size(), others.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_EQ(plain[i].reading.velocity_body, others[i].reading.velocity_body);
+    EXPECT_EQ(plain[i].reading.fix.height, others[i].reading.fix.height);
+  }
+}
+
 TEST(InsSimulator, SensorsHaveTheirOwnStreamsAndOutages) {
   Scenario scenario = shortScenario(20);
   const auto whole = recordingOf(scenario, 7).aiding;

@@ -5,6 +5,7 @@ import json
 import sys
 
 import campaign_front as front
+import jsonschema
 import numpy as np
 import pytest
 
@@ -53,6 +54,28 @@ def test_a_calibration_is_compared_by_its_mounting_angles_and_with_ckf():
     found = law(summary)['hvbckf']['ratios']
     assert (found['ckf']['value'], found['oracle_ckf']['value'], found['best']['value']) == pytest.approx((0.4, 1.2, 1.0))
     assert 'RMSE [rad]' in terminal_table(summary, {})
+
+
+def test_images_have_medians_quantiles_and_what_an_aperture_error_costs():
+    # GIVEN apertures of imaging campaigns: an estimator whose loss grows with its error from run to run, another without images
+    the_plan = plan(runs=10, estimators=('ckf27', 'gps'))
+    runs = records(the_plan, lambda *_: 1.0)
+    for (_, _, seed), run in runs.items():
+        error = 0.004 * seed
+        run['results']['ckf27']['windows'] = [{'start': 120, 'path_wavelengths': error, 'pslr_along': -100 * error, 'islr_along': 1.0, 'peak_loss': 10 * error}]
+        run['results']['gps']['windows'] = [{'start': 120, 'path_wavelengths': 3.0, 'pslr_along': None}]
+    summary = summarise(the_plan, runs, {})
+    # THEN they are summed up, signs only in the median, and the classes part by error
+    image = law(summary)['ckf27']['image']
+    assert image['measured'] == image['windows'] == 10
+    assert image['measures']['pslr_along'] == {'median': pytest.approx(-2.2), 'q90': pytest.approx(np.quantile(0.4 * np.arange(1, 11), 0.9))}
+    assert law(summary)['gps']['image']['measured'] == 0 and law(summary)['gps']['image']['measures']['pslr_along']['median'] is None
+    classes = summary['campaigns']['c']['by_aperture_error']
+    assert [(found['below'], found['windows']) for found in classes] == [(1 / 128, 2), (1 / 64, 4), (1 / 32, 8), (1 / 16, 6), (None, 20)]
+    assert classes[0]['measures']['peak_loss']['median'] == pytest.approx(0.04)
+    text = terminal_table(summary, {})
+    assert '-2.2 / 3.6' in text and 'below λ/32' in text and '0 of 10' in text
+    jsonschema.validate(summary, json.loads((front.ROOT / 'docs' / 'summary.schema.json').read_text(encoding='utf-8')))
 
 
 def test_the_interval_of_a_mean_is_that_of_the_normal_law():

@@ -257,6 +257,52 @@ def check_sentence(done, *words):
     assert all(word in done.stderr for word in words), done.stderr
 
 
+def sample_focus(folder, figure=True):
+    """What focus would have written: an error-free image, and one that is less sharp."""
+    def image(loss):
+        cut = {'irw': 0.062, 'pslr': -20.7 + loss, 'islr': -20.3, 'main_lobe': 0.2, 'extent': 1.0, 'complete': True}
+        return {'image': 'x.npy', 'entropy': 5.0, 'whole_image_islr': -9.0, 'targets': [{'complete': True, 'range': cut, 'along': cut, 'peak_loss': loss, 'peak_error': 0.1}]}
+    def trajectory(loss):
+        errors = {f'{name}{unit}': 0.01 * loss for name in ('line_of_sight', 'along', 'path') for unit in ('', '_wavelengths')}
+        return {**image(loss), 'topic': 'x/odometry', 'aperture_error': errors, 'image_shift': [0, 0, 0]}
+    window = {'start': 20.0, 'duration': 5.0, 'speed': 2.0, 'length': 10.0, 'ping_rate': 5.0, 'pings': 26, 'origin_map': [0, 0, 0], 'yaw_deg': 0.0}
+    focus = {'schema': 'sas_motion/focus/1', 'bag': 'x.bag', 'window': window, 'wavelength': 0.015, 'targets': [{'range': 66.7, 'place': [0, -66, 0]}],
+             'order': ['truth', '<i>ins'], 'trajectories': {'truth': trajectory(0), '<i>ins': {**trajectory(12.5), 'autofocused': image(3.25)}}}
+    folder.mkdir()
+    (folder / 'focus.json').write_text(json.dumps(focus))
+    if figure:
+        from matplotlib import pyplot
+        pyplot.figure(figsize=(14, 8)).savefig(str(folder / 'focus.png'))
+    return folder
+
+
+def test_images_stand_in_the_report(tmp_path):
+    # GIVEN a bag's metrics and what focus made of it
+    focus = sample_focus(tmp_path / 'images')
+    done = evaluate('--from', write_sample(tmp_path), '--focus', focus)
+    assert done.returncode == 0, done.stderr
+    browser = open_browser(os.path.join(str(tmp_path), 'report.html'), 390, 844)
+    try:
+        # THEN the table has every trajectory with its measures, and the figure is shown, no wider than a phone
+        rows = [[cell.text for cell in row.find_elements('css selector', 'th, td')] for row in browser.find_elements('css selector', '#images tbody tr')]
+        assert [row[0] for row in rows] == ['error-free', '<i>ins', '– autofocused']
+        assert rows[1][3] == '-8.20' and rows[1][8] == '12.5' and rows[2][8] == '3.25' and rows[2][1] == '–'
+        shown = browser.execute_script('const i = document.querySelector("#section-images img"); return [i.naturalWidth, i.clientWidth]')
+        assert shown[0] > 1000 and 0 < shown[1] <= 390
+        assert browser.execute_script('return document.documentElement.scrollWidth') <= 390 and severe(browser) == []
+    finally:
+        browser.quit()
+
+
+def test_images_need_no_figure_but_measures(tmp_path):
+    folder = write_sample(tmp_path)
+    assert evaluate('--from', folder, '--focus', sample_focus(tmp_path / 'images', figure=False)).returncode == 0
+    assert '<img' not in (tmp_path / 'report.html').read_text()
+    check_sentence(evaluate('--from', folder, '--focus', tmp_path), 'focus.json')
+    (tmp_path / 'images' / 'focus.json').write_text('{"schema": "other"}')
+    check_sentence(evaluate('--from', folder, '--focus', tmp_path / 'images'), 'focus.json', 'run focus')
+
+
 def test_missing_bag(tmp_path):
     check_sentence(evaluate(tmp_path / 'none.bag'), 'none.bag', 'give the path')
     assert os.listdir(str(tmp_path)) == []

@@ -24,7 +24,8 @@ struct EstimatorReport {
   Named<double> nees;                   ///< mean over the run, over its degrees of freedom; "full" for all states
   Named<double> nis;                    ///< by sensor, likewise
   std::optional<double> aperture_across, precision, recall;
-  double microseconds = 0;  ///< CPU time for an update
+  std::vector<Named<double>> windows;  ///< of imaging, the measures of each aperture's image
+  double microseconds = 0;             ///< CPU time for an update
 };
 
 /// One estimator over one run, for plots.

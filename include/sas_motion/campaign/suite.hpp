@@ -5,6 +5,7 @@
 #include "sas_motion/calibration/fitter.hpp"
 #include "sas_motion/campaign/system.hpp"
 #include "sas_motion/campaign/towfish_campaign.hpp"
+#include "sas_motion/pipeline/ins_estimator.hpp"
 
 namespace sas_motion {
 
@@ -16,8 +17,10 @@ struct Suite {
   std::uint64_t first_seed = 1;
   std::vector<std::unique_ptr<System>> campaigns;
 
-  /// Files named in a suite are relative to it; without `fitters`, usbl campaigns have filters only. Throws ConfigError.
-  static Suite fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters = {});
+  /// Files named in a suite are relative to it; without `fitters` and `make_ins`, campaigns of usbl and ins_gps_dvl have filters only. Throws
+  /// ConfigError.
+  static Suite fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters = {},
+                        const ins::EstimatorFactory& make_ins = ins::makeEstimator);
 
   /// A run: tasks are numbered by campaign, law, then seed.
   struct Task {

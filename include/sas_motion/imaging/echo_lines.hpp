@@ -16,6 +16,7 @@ struct EchoLines {
   double sample_rate = 0;  ///< [Hz]
   double first_delay = 0;  ///< of sample 0 after transmission [s]
   int samples = 0;         ///< in a line
+  std::size_t left_out = 0;  ///< lines that are zero because an echo in them was not finite
   std::vector<EchoPath> paths;
   std::vector<std::complex<float>> data;  ///< lines x samples
 

@@ -25,8 +25,8 @@ struct CompensationOptions {
 /// The paper's compensation of line-of-sight errors, (9)-(12) of paper C and its part C.5: with the sway dx away from the bottom looked at and the heave dz
 /// off the ideal track, a target at slant range r and height h below is too far by dr = (x/r) dx + (h/r) dz, x = sqrt(r^2 - h^2). Each range bin is
 /// multiplied by exp(+j 4 pi f0 dr / c) and, where dr exceeds a quarter of a range bin c/4B, shifted by dr. The paths of the result are on the ideal track,
-/// monostatic, where the true ones were along it. Exact at broadside only: compare backproject() on the true paths.
-/// `bandwidth` is that of the chirp [Hz].
+/// transmitter and receiver in one place, where the true phase centres were along it. Without stop and hop dx and dz grow, by half the receiver's velocity,
+/// until the echo is in. Exact at broadside only: compare backproject() on the true paths. `bandwidth` is that of the chirp [Hz].
 EchoLines compensateMotion(const EchoLines& lines, const StraightTrack& track, double bandwidth, const CompensationOptions& options);
 
 }  // namespace sas_motion::imaging

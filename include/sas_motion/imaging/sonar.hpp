@@ -39,4 +39,7 @@ double neededPingRate(const SonarDescription& sonar, double speed);
 /// The highest ping rate at which the echo from the far range is in before the next ping [Hz].
 double greatestPingRate(const SonarDescription& sonar);
 
+/// How long the receivers wait for the last echo of a ping [s].
+double echoTime(const SonarDescription& sonar);
+
 }  // namespace sas_motion::imaging

@@ -27,4 +27,8 @@ struct ApertureFrame {
 /// The frame of these pings, `altitude` [m] above the bottom on average. Throws std::invalid_argument where there is none.
 ApertureFrame apertureFrame(const std::vector<PingPose>& poses_map, double altitude);
 
+/// Poses of any trajectory in this frame, moved up or down so that they are `altitude` [m] above the bottom on average: a sonar hears how high it is, so that
+/// a height which is wrong throughout does not move its image.
+std::vector<PingPose> aperturePoses(const std::vector<PingPose>& poses_map, const ApertureFrame& frame, double altitude);
+
 }  // namespace sas_motion::imaging

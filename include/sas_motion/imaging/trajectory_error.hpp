@@ -21,8 +21,7 @@ Trend fitTrend(const std::vector<double>& times, const std::vector<double>& valu
 struct ApertureTrajectoryError {
   Trend along;          ///< along the track [m]
   Trend line_of_sight;  ///< positive: too far from the target [m]
-  /// How far mean and trend move the image, in the plane of the bottom: the mean moves it as a whole, a trend in the line of sight turns the track and so moves
-  /// it along, by the slope times range over speed [m].
+  /// How far the error moves the image, in the plane of the bottom: to the place whose estimated paths fit the true ones by the target best [m].
   Eigen::Vector3d image_shift = Eigen::Vector3d::Zero();
   Trend path;  ///< half of each line's path by the moved image, less the true one by the target: so with attitude and velocity too [m]
 };

@@ -29,6 +29,7 @@ using Errors = Vector<kStates>;
 using ErrorMatrix = Matrix<kStates>;
 
 constexpr double kDegPerHour = kRadPerDeg / 3600;
+constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
 
 /// How wrong the sensors are: constants, first-order Markov processes and white noise. (C.4), its defaults.
 struct Parameters {
@@ -45,6 +46,8 @@ struct Parameters {
   double dvl_time = 300;                               ///< [s]
   double dvl_white = 0.01;                             ///< [m/s]
   double dvl_rate = 5;                                 ///< readings that are dead-reckoned [1/s]
+  double dvl_scale = 0;                                ///< that the filters do not know; 0 where there is none [-]
+  double dvl_misalignment = 0;                         ///< the same, about each axis [rad]
   double depth_white = 0.1;                            ///< [m]
   Vector<3> start_position{2, 2, 2};                   ///< [m]
   double start_velocity = 0.05;                        ///< [m/s]
@@ -54,14 +57,23 @@ struct Parameters {
   Vector<3> gps_lever_body = Vector<3>::Zero();    ///< antenna from the INS [m]
   Vector<3> dvl_lever_body = Vector<3>::Zero();    ///< [m]
   Vector<3> depth_lever_body = Vector<3>::Zero();  ///< [m]
+  Vector<3> dpc_lever_body = Vector<3>::Zero();    ///< phase centre of the sonar's array [m]
 };
 
 /// The sensors that aid the INS.
-enum class Sensor { Gps, Dvl, Depth };
-constexpr std::size_t kSensors = 3;
+enum class Sensor { Gps, Dvl, Depth, Dpc };
+constexpr std::size_t kSensors = 4;
 const char* sensorName(Sensor sensor);
-constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : 3; }
+constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : sensor == Sensor::Dpc ? 2 : 3; }
 Vector<3>& leverOf(Parameters& parameters, Sensor sensor);
+
+/// How the sonar's array moved from one ping to the next, by displaced phase centres: its mean velocity over the ground, which stands for the one in the
+/// middle of the interval T. That leaves v'' T^2 / 24: for 0.3 m of heave in 6 s at most 0.6 mm/s at 0.2 s and 0.2 mm/s at 0.125 s.
+struct ArrayVelocity {
+  Vector<3> sight_body = -Vector<3>::UnitZ();  ///< unit vector along the line of sight, across the array
+  Vector<2> velocity = Vector<2>::Zero();      ///< forward, and along the sight [m/s]
+  Vector<2> variance = Vector<2>::Ones();      ///< [m^2/s^2]
+};
 
 /// What one of the sensors that aid the INS says.
 struct Aiding {
@@ -69,6 +81,7 @@ struct Aiding {
   Sensor sensor = Sensor::Gps;
   NavigationState fix;                          ///< GPS: position of the antenna; depth: height of the sensor
   Vector<3> velocity_body = Vector<3>::Zero();  ///< DVL: its velocity over the ground
+  ArrayVelocity array;                          ///< DPC
   // Where the reading says more than the parameters do.
   std::optional<Vector<3>> variance;    ///< of its white noise, a row each [m^2, m^2/s^2]
   std::optional<Vector<3>> lever_body;  ///< its sensor from the INS, from now on [m]
@@ -77,6 +90,9 @@ struct Aiding {
 /// Velocity, position and attitude rows of the INS error dynamics in SI units, (rad, rad, m) for the position. (C.2), with the derivative of
 /// gravity by latitude kept.
 Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_nav);
+
+/// Rate of the body over the ground, from that against inertial space; body [rad/s].
+Vector<3> rateOverGround(const NavigationState& ins, const Vector<3>& rate_body);
 
 /// The linear model of the 27 errors. Its units make them alike in size: metres east, north, up at a fixed place, mrad, urad/s, mm/s^2, m/s.
 class ErrorModel {
@@ -92,7 +108,9 @@ class ErrorModel {
 
   /// F, (C.5), per second.
   ErrorMatrix dynamics(const Motion& motion) const;
-  /// Phi = I + F T + F^2 T^2 / 2 and Q_d = T (Phi q Phi^T + q) / 2. (C.4)
+  /// Phi = I + F T + F^2 T^2 / 2. (C.4)
+  ErrorMatrix transitionMatrix(const Motion& motion, double T) const;
+  /// Phi, and Q_d = T (Phi q Phi^T + q) / 2. (C.4)
   Transition<kStates> transition(const Motion& motion, double T, const Errors& mean) const;
   Gaussian<kStates> start() const;
 
@@ -102,9 +120,9 @@ class ErrorModel {
   LinearMeasurement<kStates, 3> dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body, const Errors& mean) const;
   /// Height of the depth sensor.
   LinearMeasurement<kStates, 1> depth(const NavigationState& ins, double height, const Errors& mean) const;
+  /// Velocity of the sonar's array forward and along its line of sight.
+  LinearMeasurement<kStates, 2> dpc(const NavigationState& ins, const Vector<3>& rate_body, const ArrayVelocity& array, const Errors& mean) const;
 
-  /// Of the body over the ground from that against inertial space; body.
-  Vector<3> rateOverGround(const NavigationState& ins, const Vector<3>& rate_body) const;
   /// Velocity of the INS over the ground from the DVL's reading; body.
   Vector<3> velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const;
 
@@ -120,6 +138,12 @@ class ErrorModel {
   Errors unit_;
   Errors density_;  // of the white noise that drives each state, in its units squared per second
 };
+
+/// What a DVL makes of its velocity, by its scale and its small misalignment: (1 + s) (I - [mu x]).
+Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment);
+
+/// [v x].
+Matrix<3> crossMatrix(const Vector<3>& v);
 
 /// The INS without the errors that are estimated of it.
 NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit);

@@ -28,9 +28,6 @@ inline Attitude attitudeOf(const Matrix<3>& C) {
   return {std::asin(std::clamp(C(2, 1), -1.0, 1.0)), std::atan2(-C(2, 0), C(2, 2)), std::atan2(C(0, 1), C(1, 1))};
 }
 
-/// [v x]: its product with u is v x u.
-inline Matrix<3> cross(const Vector<3>& v) { return (Matrix<3>() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished(); }
-
 /// Components of starboard, forward, up from those of forward, port, up (REP-103); its transpose leads back.
 inline Matrix<3> bodyFromRosBody() { return (Matrix<3>() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(); }
 

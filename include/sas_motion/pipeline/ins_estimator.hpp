@@ -9,23 +9,33 @@
 #include <vector>
 
 #include "sas_motion/pipeline/ins_navigator.hpp"
+#include "sas_motion/smoothers/options.hpp"
 
 namespace sas_motion::ins {
+
+/// A smoother over a sliding window.
+struct FixedLag {
+  Loss loss{LossKind::Huber};
+  double lag = 60;            ///< the window's length [s]
+  double solve_interval = 5;  ///< between two solutions [s]
+};
 
 /// What every estimator of this system is told.
 struct Config {
   Parameters parameters;
   Mechanisation::Options imu;
+  SmootherOptions batch{Loss(LossKind::Huber), 100, 1e-7};
+  FixedLag fixed_lag;
 };
 
 /// Where and how the body is at a stamp.
 struct Solution {
   Stamp stamp = 0;
   NavigationState state;
-  bool moving = true;                   ///< velocity is known
-  bool lying = true;                    ///< attitude is known
-  std::optional<Matrix<9>> covariance;  ///< of velocity, position and attitude errors [m/s, m, rad], where the solution has one
-  std::optional<Vector<3>> rate_body;   ///< of the body over the ground [rad/s], where the solution has one
+  bool moving = true;                                 ///< velocity is known
+  bool lying = true;                                  ///< attitude is known
+  std::optional<Matrix<9>> covariance;                ///< of velocity, position and attitude errors [m/s, m, rad], where the solution has one
+  std::optional<Vector<3>> rate_body = std::nullopt;  ///< of the body over the ground [rad/s], where the solution has one
 };
 
 /// The same solution of another point of the body, at a lever arm from the one it is of [m].

@@ -40,6 +40,10 @@ struct NavigatorOptions {
   double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
 };
 
+/// What the motion may have been besides in a part of a gap of the inertial unit, as variances of the errors in the model's units: the parts
+/// of a gap add up to a force and a rate that are wrong throughout. Times in seconds.
+Errors gapVariance(const NavigatorOptions& options, double gap, double part);
+
 /// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of the INS itself (feedback)
 /// or of its output (open loop). (C.4)
 ///
@@ -59,8 +63,8 @@ class Navigator {
   Stamp stamp() const { return ins_.stamp(); }
   NavigationState fused() const { return corrected(ins_.state(), belief_.mean, model_.unit()); }
   /// Of the body over the ground; body [rad/s].
-  Vector<3> rate_body() const { return model_.rateOverGround(ins_.state(), ins_.rate_body()); }
-  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors.
+  Vector<3> rate_body() const { return rateOverGround(ins_.state(), ins_.rate_body()); }
+  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors; the attitude is the fused one.
   struct Fix {
     Stamp stamp = 0;
     NavigationState state;

@@ -7,6 +7,7 @@ from sas_motion_report.columns import number
 from sas_motion_report.inputs import dig, finite
 from sas_motion_report.tables import table
 
+from ..images import CAPTION, COSTS_CAPTION, cost_rows, image_rows
 from .yardstick import NAMES, contenders, ranked, yardstick
 
 RATIOS = (('clean', 'R'), ('kf', '/ kf'), ('oracle_kf', '/ oracle_kf'), ('bayes_reference', '/ bayes_reference'), ('ckf', '/ ckf'), ('oracle_ckf', '/ oracle_ckf'), ('bound', '/ bound'))
@@ -14,7 +15,13 @@ RATIOS = (('clean', 'R'), ('kf', '/ kf'), ('oracle_kf', '/ oracle_kf'), ('bayes_
 
 def campaign_tables(campaign, costs, name):
     """Returns the tables of one campaign; `name` makes their ids unique."""
-    return overview(campaign, name) + failures(campaign, name) + details(campaign, costs, name)
+    return overview(campaign, name) + images(campaign, name) + failures(campaign, name) + details(campaign, costs, name)
+
+
+def images(campaign, name):
+    """Returns the tables of images, a law each, and of what an aperture error costs; empty without images."""
+    tables = [(f'{escape(law)}: {CAPTION}', image_rows(found, campaign['estimators'])) for law, found in campaign['laws'].items()] + [(COSTS_CAPTION, cost_rows(campaign))]
+    return ''.join(table(caption, rows[0], [[escape(cell) for cell in row] for row in rows[1:]], f'{name}-images-{i}') for i, (caption, rows) in enumerate(tables) if rows)
 
 
 def overview(campaign, name):
