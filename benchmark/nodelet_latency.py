@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How long the filter nodelet (kf and robust_kf) takes from callback to publication at 100 messages a second, by its own diagnostics.
+"""How long the filter nodelets take from callback to publication at 100 messages a second, by their own diagnostics.
 
-Alone: the nodelet, rosbag play, and a recorder of both odometries. Together: compare.launch, which adds the smoother in the
-same manager and a recorder of everything. usage: nodelet_latency.py TOOLS OUT SECONDS [RUNS]
+Alone: the nodelet (kf and robust_kf), rosbag play, and a recorder of both odometries. Together: compare.launch, which adds the smoother in the
+same manager and a recorder of everything. Ins: the nodelet of INS, GPS and DVL (robust_ckf27) alone. usage: nodelet_latency.py TOOLS OUT SECONDS [RUNS]
 """
 import contextlib
 import os
@@ -22,6 +22,7 @@ import rosgraph
 SCENARIO = 'config/scenarios/survey_outliers_10.yaml'
 RATE = 100 / 16.0  # the scenario has 16 messages a second
 ESTIMATORS = '[kf, robust_kf]'
+INS_SCENARIO = 'config/scenarios/ins/survey.yaml'  # 107 messages a second
 KEYS = ('callback to publication p50 [ms]', 'callback to publication p99 [ms]', 'whole callback p99 [ms]')
 
 
@@ -69,22 +70,25 @@ def last_diagnostics(bag):
         for _, message, _ in live.read_messages(topics=['/diagnostics']):
             for status in message.status:
                 found = {v.key: v.value for v in status.values}
-                if any(key.startswith('robust_kf') for key in found):
+                if any(key.startswith('robust_') for key in found):
                     values = found
     return [float(values[key]) for key in KEYS]
 
 
-def alone(bag, recorded):
+def alone(bag, recorded, kind='FilterNodelet', estimators=ESTIMATORS, rate=RATE):
+    """Of a nodelet by itself."""
+    odometries = [f'/{name.strip()}/odometry' for name in estimators.strip('[]').split(',')]
     port = new_master()
     with running('roscore', '-p', port):
         master = rosgraph.Master('/nodelet_latency')
         wait_until(master.is_online)
-        subprocess.run(['rosparam', 'set', '/filters', f'{{estimators: {ESTIMATORS}}}'], check=True)
-        with running('rosrun', 'nodelet', 'nodelet', 'standalone', 'sas_motion/FilterNodelet', '__name:=filters'):
+        subprocess.run(['rosparam', 'set', '/filters', f'{{estimators: {estimators}}}'], check=True)
+        with running('rosrun', 'nodelet', 'nodelet', 'standalone', f'sas_motion/{kind}', '__name:=filters'):
             wait_until(lambda: '/filters/reset' in names(master, 2))
-            with running('rosbag', 'record', '--buffsize=0', '-O', recorded, '/diagnostics', '/kf/odometry', '/robust_kf/odometry'):
-                wait_until(lambda: '/kf/odometry' in names(master, 1))
-                subprocess.run(['rosbag', 'play', '--quiet', '--delay=2', f'--rate={RATE}', bag, '--topics', 'gnss/fix', 'imu/data', 'dvl/twist', '/tf_static'],
+            with running('rosbag', 'record', '--buffsize=0', '-O', recorded, '/diagnostics', *odometries):
+                wait_until(lambda: odometries[0] in names(master, 1))
+                subprocess.run(['rosbag', 'play', '--quiet', '--delay=2', f'--rate={rate}', bag, '--topics', 'gnss/fix', 'imu/data', 'dvl/twist', 'depth/pose',
+                                '/tf_static'],
                                check=True, stdout=subprocess.DEVNULL)
                 time.sleep(2)
     return last_diagnostics(recorded)
@@ -104,8 +108,14 @@ def main():
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     bag = f'{out}/latency.bag'
     subprocess.run([f'{tools}/simulate', f'{root}/{SCENARIO}', '-o', bag, '--duration', str(seconds * RATE)], check=True)
-    for measure in (alone, together):
-        found = [measure(bag, f'{out}/latency_{measure.__name__}.bag') for _ in range(runs)]
+    ins_bag = f'{out}/latency_ins.bag'
+    subprocess.run([f'{tools}/simulate', f'{root}/{INS_SCENARIO}', '-o', ins_bag, '--duration', str(seconds)], check=True)
+
+    def ins(_, recorded):
+        return alone(ins_bag, recorded, 'InsFilterNodelet', '[robust_ckf27]', 1)
+
+    for measure in (alone, together, ins):
+        found = [measure(bag, f'{out}/latency_of_{measure.__name__}.bag') for _ in range(runs)]
         for key, values in zip(KEYS, zip(*found)):
             print(f'{measure.__name__:<10}{key:<36} best {min(values):.3f}  typical {statistics.median(values):.3f}  worst {max(values):.3f}')
 

@@ -27,12 +27,28 @@ OUTLIERS = [
 ]
 COST = Column('cost', 'us/update', ('cost', 'microseconds_per_update'), 1, True)
 
+# of estimators in six degrees of freedom
+MOTION = [
+    Column('height', 'm', ('height', 'rmse'), 1, True),
+    Column('velocity', 'm/s', ('velocity', 'rmse'), 1, True),
+    Column('tilt', 'deg', ('tilt_deg', 'rmse'), 1, True),
+]
+NIS_GPS = Column('NIS', 'gps', ('nis', 'gps', 'mean'), 1, False)
+
 TERMINAL = [*RMSE, CURRENT, DRIFT, Column('aperture', 'm', ('aperture', 'across'), 1, True), *CONSISTENCY, *OUTLIERS, COST]
 PAGE = [
-    *RMSE, Column('speed', 'm/s', ('speed', 'rmse'), 1, True), CURRENT, DRIFT,
+    *RMSE, *MOTION, Column('speed', 'm/s', ('speed', 'rmse'), 1, True), CURRENT, DRIFT,
     Column('aperture, across', 'mm', ('aperture', 'across'), 1e3, True), Column('along', 'mm', ('aperture', 'along'), 1e3, True),
     Column('across', 'λ', ('aperture', 'across_wavelengths'), 1, True), COST._replace(unit='µs/update'),
 ]
+
+
+def terminal_columns(metrics):
+    """Returns the columns of the terminal's table: in six degrees of freedom others are of interest than of a towfish."""
+    if not any(value(e, c) is not None for _, e in ranked(metrics) for c in MOTION):
+        return TERMINAL
+    rest = [NIS_GPS if c.title == 'NIS' else c for c in TERMINAL if c not in RMSE and c != CURRENT]
+    return [*RMSE, *MOTION, *rest]
 
 
 def value(estimator, column):

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Each function returns {traces, layout} of one plot for the chosen estimator; times in seconds, lengths in metres.
-const SENSORS = ['position', 'heading', 'speed'];
-const ERRORS = [['north', 'north [m]'], ['east', 'east [m]'], ['heading_deg', 'heading [°]']];
+const SENSORS = ['position', 'heading', 'speed', 'gps', 'dvl', 'depth'];
+const ERRORS = [['north', 'north [m]'], ['east', 'east [m]'], ['up', 'up [m]'], ['heading_deg', 'heading [°]']];
 
 const colour = (data, theme, name) => theme.colours[data.order.indexOf(name) % theme.colours.length];
 

@@ -6,7 +6,7 @@ from .inputs import SENSORS, dig, finite, ranked
 LIMIT = 1500  # markers a trace
 # 2.5 % and 97.5 % quantiles of chi-square, by degrees of freedom
 CHI_SQUARE_95 = {1: (0.000982, 5.024), 2: (0.0506, 7.378), 3: (0.216, 9.348), 4: (0.484, 11.14), 5: (0.831, 12.83), 6: (1.237, 14.45)}
-DEGREES = {'position': 2, 'heading': 1, 'speed': 1}
+DEGREES = {'position': 2, 'heading': 1, 'speed': 1, 'gps': 3, 'dvl': 3, 'depth': 1}
 
 
 def figure_data(metrics, series):
@@ -23,7 +23,7 @@ def estimator_data(series, fixes):
     """Returns one estimator's lines, updates, and what it made of each fix."""
     updates = {sensor: rounded(dig(series, 'updates', sensor)) for sensor in SENSORS if dig(series, 'updates', sensor, 't')}
     data = rounded({key: column for key, column in series.items() if isinstance(column, list)})
-    data['fates'] = fates(fixes, updates.get('position', {}))
+    data['fates'] = fates(fixes, updates.get('position') or updates.get('gps', {}))
     data['updates'] = {sensor: thinned(columns) for sensor, columns in updates.items()}
     return data
 

@@ -7,7 +7,7 @@ import math
 from . import ReportError
 
 SCHEMA = 'sas_motion/metrics/1'
-SENSORS = ('position', 'heading', 'speed')
+SENSORS = ('position', 'heading', 'speed', 'gps', 'dvl', 'depth')
 REMEDY = 'run evaluate.py on the bag again'
 
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The results as plain text for a terminal of 120 columns."""
-from .columns import CONSISTENCY, OUTLIERS, TERMINAL, best, number, outside, percent, quantity, value
+from .columns import CONSISTENCY, NIS_GPS, OUTLIERS, best, number, outside, percent, quantity, terminal_columns, value
 from .inputs import dig, ranked
 
 NAME_WIDTH = 18
@@ -9,9 +9,10 @@ NAME_WIDTH = 18
 
 def terminal_table(metrics):
     """Returns the results table: a headline, two header lines, one line an estimator, a legend."""
-    titles = ['estimator'] + [column.title for column in TERMINAL]
-    units = ['RMSE first'] + [column.unit for column in TERMINAL]
-    rows = [titles, units] + [text_row(metrics, name, estimator) for name, estimator in ranked(metrics)]
+    columns = terminal_columns(metrics)
+    titles = ['estimator'] + [column.title for column in columns]
+    units = ['RMSE first'] + [column.unit for column in columns]
+    rows = [titles, units] + [text_row(metrics, name, estimator, columns) for name, estimator in ranked(metrics)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(titles))]
     lines = [join(row, widths) for row in rows]
     lines.insert(2, '-' * len(lines[0]))
@@ -24,12 +25,12 @@ def join(row, widths):
     return ' '.join(cells).rstrip()
 
 
-def text_row(metrics, name, estimator):
+def text_row(metrics, name, estimator, columns):
     """Returns the cells of one estimator."""
     shown = name if len(name) <= NAME_WIDTH else name[:NAME_WIDTH - 1] + '~'
     if estimator.get('diverged'):
-        return [shown, 'diverged'] + [''] * (len(TERMINAL) - 1)
-    return [shown] + [text_cell(metrics, estimator, column) for column in TERMINAL]
+        return [shown, 'diverged'] + [''] * (len(columns) - 1)
+    return [shown] + [text_cell(metrics, estimator, column) for column in columns]
 
 
 def text_cell(metrics, estimator, column):
@@ -38,7 +39,7 @@ def text_cell(metrics, estimator, column):
     if column in OUTLIERS:
         return percent(dig(estimator, *column.path), '-') + ' '
     is_best = x is not None and x == best(metrics, column)
-    is_outside = column in CONSISTENCY and outside(dig(estimator, *column.path[:-1]))
+    is_outside = column in (*CONSISTENCY, NIS_GPS) and outside(dig(estimator, *column.path[:-1]))
     return number(x, '-') + ('*' if is_best else '!' if is_outside else ' ')
 
 
@@ -53,5 +54,5 @@ def legend(metrics):
     """Returns what the marks and columns mean."""
     times = [dig(e, 'aperture', 'time') for _, e in ranked(metrics)]
     aperture = next((f' ({quantity(t)} s)' for t in times if t), '')
-    return ('* best, ! mean outside its 95 % band; position, heading, current: RMSE; NEES and NIS: expected 2 for position;\n'
+    return ('* best, ! mean outside its 95 % band; position, heading, current: RMSE; NEES, NIS: expected 2 for position, 3 for gps;\n'
             f'aperture: RMS across track within one synthetic aperture{aperture}, mean and trend removed')

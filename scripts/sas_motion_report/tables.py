@@ -6,7 +6,7 @@ from html import escape
 from .columns import PAGE, best, number, outside, percent, quantity, value
 from .inputs import SENSORS, dig, ranked
 
-STATES = ('position', 'heading', 'speed', 'current')
+STATES = ('position', 'height', 'velocity', 'heading', 'tilt', 'speed', 'current')
 CONSISTENCY = ('Means against their χ² bands. Above: the stated uncertainty is too small; below: too large. The bands suppose independent samples; '
                'errors that last, as those of position do, leave them sooner.')
 VERDICTS = ('accepted', 'down_weighted', 'rejected', 'stale', 'invalid')

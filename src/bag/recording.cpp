@@ -18,7 +18,8 @@ namespace {
 
 using namespace towfish;
 
-constexpr double kLongestGap = 5;  // between two truths, that is interpolated over [s]
+constexpr double kLongestGap = 5;      // between two truths, that is interpolated over [s]
+constexpr double kNotEstimated = 1e6;  // variance of what an estimator does not have
 
 double headingOf(const geometry_msgs::Quaternion& q) {
   const double yaw = std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
@@ -51,20 +52,37 @@ void addCurrent(const geometry_msgs::TwistWithCovarianceStamped& current, Gaussi
   belief.covariance(kCurrentNorth, kCurrentEast) = belief.covariance(kCurrentEast, kCurrentNorth) = c[1];
 }
 
-Audit auditOf(const sas_motion::FilterUpdate& update) {
-  Audit audit;
+/// In six degrees of freedom, where the message has them.
+std::optional<MotionSample> motionOf(const nav_msgs::Odometry& odometry) {
+  const auto& pose = odometry.pose;
+  if (pose.covariance[14] >= kNotEstimated) return std::nullopt;
+  MotionSample motion;
+  motion.stamp = stampOf(odometry.header.stamp);
+  motion.position_map << pose.pose.position.x, pose.pose.position.y, pose.pose.position.z;
+  const auto& q = pose.pose.orientation;
+  motion.q_map_base = Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+  const auto& v = odometry.twist.twist.linear;
+  motion.velocity_base << v.x, v.y, v.z;
+  motion.lying = pose.covariance[21] < kNotEstimated;
+  motion.moving = odometry.twist.covariance[0] < kNotEstimated;
+  const auto block = [](const auto& covariance, int first) -> std::optional<Matrix<3>> {
+    const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> P = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(covariance.data());
+    if (!(P(first, first) > 0)) return std::nullopt;  // zero is unknown
+    return P.block<3, 3>(first, first);
+  };
+  motion.P_position_map = block(pose.covariance, 0);
+  motion.P_rotation_map = block(pose.covariance, 3);
+  motion.P_velocity_base = block(odometry.twist.covariance, 0);
+  return motion;
+}
+
+RecordedAudit auditOf(const sas_motion::FilterUpdate& update) {
+  RecordedAudit audit;
   audit.stamp = stampOf(update.header.stamp);
-  for (int i = 0; i < kSensors; ++i)
-    if (update.sensor == sensorName(static_cast<Sensor>(i))) audit.sensor = static_cast<Sensor>(i);
-  audit.rows = static_cast<int>(std::min<std::size_t>(2, update.weights.size()));
-  for (int row = 0; row < audit.rows; ++row) {
-    const auto r = static_cast<std::size_t>(row);
-    audit.weights(row) = update.weights[r];
-    if (r < update.innovation.size()) audit.innovation(row) = update.innovation[r];
-  }
-  if (!update.innovation_covariance.empty()) audit.S(0, 0) = update.innovation_covariance[0];
-  audit.nis = update.nis;
-  audit.iterations = static_cast<int>(update.iterations);
+  audit.sensor = update.sensor;
+  audit.rows = update.weights.size();
+  for (const double weight : update.weights) audit.least_weight = std::min(audit.least_weight, weight);
+  if (!update.innovation_covariance.empty() && update.innovation_covariance[0] > 0) audit.nis = update.nis;
   audit.verdict = static_cast<Verdict>(std::min<std::uint8_t>(update.verdict, 4));
   return audit;
 }
@@ -96,7 +114,10 @@ std::vector<TruthPoint> join(const TruthParts& parts, const LocalFrame& frame) {
     reference.state.setZero();
     const auto odometry = parts.odometry.find(stamp);
     reference.heading_known = reference.speed_known = odometry != parts.odometry.end();
-    if (reference.heading_known) reference.state = estimateOf(odometry->second).belief.mean;
+    if (reference.heading_known) {
+      reference.state = estimateOf(odometry->second).belief.mean;
+      t.motion = motionOf(odometry->second);
+    }
     const auto current = parts.current.find(stamp);
     reference.current_known = current != parts.current.end();
     Gaussian<kStates> belief{reference.state, StateMatrix::Identity()};
@@ -105,14 +126,16 @@ std::vector<TruthPoint> join(const TruthParts& parts, const LocalFrame& frame) {
     const Vector<3> enu = frame.position_enu(point);
     reference.state(kNorth) = enu(1);
     reference.state(kEast) = enu(0);
+    if (t.motion) t.motion->position_map = enu;
     truth.push_back(t);
   }
   return truth;
 }
 
 void sortByStamp(RecordedEstimator& estimator) {
-  auto& estimates = estimator.estimates;
-  std::stable_sort(estimates.begin(), estimates.end(), [](const Estimate& a, const Estimate& b) { return a.stamp < b.stamp; });
+  const auto earlier = [](const auto& a, const auto& b) { return a.stamp < b.stamp; };
+  std::stable_sort(estimator.estimates.begin(), estimator.estimates.end(), earlier);
+  std::stable_sort(estimator.motions.begin(), estimator.motions.end(), earlier);
 }
 
 }  // namespace
@@ -143,7 +166,10 @@ Recording Recording::read(const std::string& file) {
     const std::string name = slash == std::string::npos ? "" : topic.substr(0, slash), leaf = slash == std::string::npos ? topic : topic.substr(slash + 1);
     if (const auto found = recording.estimators.find(name); found != recording.estimators.end()) {
       const bool has_settled = settled[name];
-      if (leaf == (has_settled ? "settled" : "odometry") && bag.get(*m, odometry)) found->second.estimates.push_back(estimateOf(odometry));
+      if (leaf == (has_settled ? "settled" : "odometry") && bag.get(*m, odometry)) {
+        found->second.estimates.push_back(estimateOf(odometry));
+        if (const auto motion = motionOf(odometry)) found->second.motions.push_back(*motion);
+      }
       if (leaf == "update" && bag.get(*m, update)) found->second.audits.push_back(auditOf(update));
       if (leaf == (has_settled ? "settled_current" : "current") && bag.get(*m, current)) currents[name][stampOf(current.header.stamp)] = current;
     } else if (topic == "datum") {
@@ -180,18 +206,29 @@ Recording Recording::read(const std::string& file) {
   return recording;
 }
 
-std::optional<Reference> Recording::truthAt(Stamp stamp) const {
+std::optional<std::pair<const TruthPoint*, const TruthPoint*>> Recording::around(Stamp stamp) const {
   const auto after = std::lower_bound(truth.begin(), truth.end(), stamp, [](const TruthPoint& t, Stamp s) { return t.stamp < s; });
   if (after == truth.end()) return std::nullopt;
-  if (after->stamp == stamp) return after->reference;
-  if (after == truth.begin()) return std::nullopt;
-  const TruthPoint &a = *(after - 1), &b = *after;
-  const double gap = secondsBetween(a.stamp, b.stamp);
-  if (gap > kLongestGap) return std::nullopt;
-  Reference reference = a.reference;
-  reference.state += secondsBetween(a.stamp, stamp) / gap * Model::difference(b.reference.state, a.reference.state);
+  if (after->stamp == stamp) return std::pair(&*after, &*after);
+  if (after == truth.begin() || secondsBetween((after - 1)->stamp, after->stamp) > kLongestGap) return std::nullopt;
+  return std::pair(&*(after - 1), &*after);
+}
+
+std::optional<Reference> Recording::truthAt(Stamp stamp) const {
+  const auto points = around(stamp);
+  if (!points) return std::nullopt;
+  const auto [a, b] = *points;
+  Reference reference = a->reference;
+  if (a == b) return reference;
+  reference.state += secondsBetween(a->stamp, stamp) / secondsBetween(a->stamp, b->stamp) * Model::difference(b->reference.state, a->reference.state);
   reference.state(kHeading) = wrapAngle(reference.state(kHeading));
   return reference;
+}
+
+std::optional<MotionSample> Recording::motionAt(Stamp stamp) const {
+  const auto points = around(stamp);
+  if (!points || !points->first->motion || !points->second->motion) return std::nullopt;
+  return points->first == points->second ? points->first->motion : interpolate(*points->first->motion, *points->second->motion, stamp);
 }
 
 }  // namespace sas_motion::ros_side

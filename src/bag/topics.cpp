@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <stdexcept>
 
@@ -12,6 +13,12 @@ namespace sas_motion::ros_side {
 namespace {
 
 using TypeByTopic = std::map<std::string, std::string>;
+
+/// Whether an estimator NAME writes NAME/leaf.
+bool isAnswer(const std::string& leaf) {
+  constexpr std::array<const char*, 6> leaves{"odometry", "fix", "current", "settled", "settled_current", "update"};
+  return std::find(leaves.begin(), leaves.end(), leaf) != leaves.end();
+}
 
 bool reserved(const std::string& topic) {
   const std::string bare = bareTopic(topic);
@@ -31,18 +38,22 @@ std::string find(const TypeByTopic& types, const std::string& wanted, const std:
   return candidates.empty() ? "" : candidates.front();
 }
 
+/// Those that no estimator wrote in an earlier run.
+TypeByTopic sensorsIn(const std::vector<BagConnection>& connections) {
+  TypeByTopic types, sensors;
+  for (const auto& connection : connections) types[connection.topic] = connection.type;
+  for (const auto& [topic, type] : types) {
+    const auto slash = topic.rfind('/');
+    const bool estimate = slash != std::string::npos && isAnswer(topic.substr(slash + 1)) && types.count(topic.substr(0, slash) + "/update") > 0;
+    if (!estimate) sensors[topic] = type;
+  }
+  return sensors;
+}
+
 }  // namespace
 
 SensorTopics findTopics(const std::vector<BagConnection>& connections, const Settings& settings, const std::string& file) {
-  TypeByTopic types;
-  for (const auto& connection : connections) types[connection.topic] = connection.type;
-  // What an earlier run has put there is no sensor.
-  TypeByTopic sensors;
-  for (const auto& [topic, type] : types) {
-    const auto slash = topic.rfind('/');
-    const bool estimate = slash != std::string::npos && types.count(topic.substr(0, slash) + "/update") > 0;
-    if (!estimate) sensors[topic] = type;
-  }
+  const TypeByTopic sensors = sensorsIn(connections);
   SensorTopics topics;
   topics.fix = find(sensors, settings.fix_topic, "sensor_msgs/NavSatFix", file);
   topics.imu = find(sensors, settings.imu_topic, "sensor_msgs/Imu", file);
@@ -53,16 +64,34 @@ SensorTopics findTopics(const std::vector<BagConnection>& connections, const Set
   if (topics.fix.empty())
     throw std::runtime_error(fmt::format("{}: no topic {} or any other sensor_msgs/NavSatFix; positions are needed", file, settings.fix_topic));
   if (topics.imu.empty()) throw std::runtime_error(fmt::format("{}: no topic {} or any other sensor_msgs/Imu; headings are needed", file, settings.imu_topic));
-  for (const auto& [topic, type] : types)
-    if (type == "tf2_msgs/TFMessage") topics.transforms.insert(topic);
   return topics;
+}
+
+InsTopics findTopics(const std::vector<BagConnection>& connections, const InsSettings& settings, const std::string& file) {
+  const TypeByTopic sensors = sensorsIn(connections);
+  InsTopics topics;
+  std::vector<std::string> missing;
+  const auto take = [&](std::string& topic, const std::string& wanted, const char* type, const char* key, bool enabled) {
+    topic = enabled ? find(sensors, wanted, type, file) : "";
+    if (topic.empty() && enabled) missing.push_back(fmt::format("{} ({}, topics.{})", wanted, type, key));
+  };
+  const auto enabled = [&](ins::Sensor sensor) { return settings.estimation.of(sensor).enabled; };
+  take(topics.imu, settings.imu_topic, "sensor_msgs/Imu", "imu", true);
+  take(topics.fix, settings.fix_topic, "sensor_msgs/NavSatFix", "fix", enabled(ins::Sensor::Gps));
+  take(topics.twist, settings.twist_topic, "geometry_msgs/TwistWithCovarianceStamped", "twist", enabled(ins::Sensor::Dvl));
+  take(topics.depth, settings.depth_topic, "geometry_msgs/PoseWithCovarianceStamped", "depth", enabled(ins::Sensor::Depth));
+  if (missing.empty()) return topics;
+  throw std::runtime_error(fmt::format(
+      "{}: no topic {}; 'rosbag info' lists what there is. Where there is no such sensor, say enabled: false under gps, dvl or depth in the configuration",
+      file, fmt::join(missing, ", ")));
 }
 
 bool isEstimate(const std::string& topic, const std::vector<std::string>& estimators) {
   const std::string bare = bareTopic(topic);
   if (bare == "datum") return true;
   const auto slash = bare.find('/');
-  return slash != std::string::npos && std::find(estimators.begin(), estimators.end(), bare.substr(0, slash)) != estimators.end();
+  return slash != std::string::npos && isAnswer(bare.substr(slash + 1)) &&
+         std::find(estimators.begin(), estimators.end(), bare.substr(0, slash)) != estimators.end();
 }
 
 }  // namespace sas_motion::ros_side

@@ -21,20 +21,39 @@ TumFile::~TumFile() {
   if (stream_) std::fclose(stream_);
 }
 
+void TumFile::beginLine(Stamp stamp, double x, double y) {
+  line_.clear();
+  fmt::format_to(std::back_inserter(line_), "{}.{:09d} ", stamp / kNanosecondsPerSecond, stamp % kNanosecondsPerSecond);
+  appendFixed(x, 9, line_);
+  line_.push_back(' ');
+  appendFixed(y, 9, line_);
+}
+
+void TumFile::endLine() {
+  line_.push_back('\n');
+  std::fwrite(line_.data(), 1, line_.size(), stream_);  // commit() looks for failures
+}
+
 void TumFile::write(const towfish::Estimate& estimate) {
   const auto& x = estimate.belief.mean;
   const double yaw = kPi / 2 - x(towfish::kHeading);
-  line_.clear();
-  fmt::format_to(std::back_inserter(line_), "{}.{:09d} ", estimate.stamp / kNanosecondsPerSecond, estimate.stamp % kNanosecondsPerSecond);
-  appendFixed(x(towfish::kEast), 9, line_);
-  line_.push_back(' ');
-  appendFixed(x(towfish::kNorth), 9, line_);
+  beginLine(estimate.stamp, x(towfish::kEast), x(towfish::kNorth));
   line_.append(std::string_view(" 0 0 0 "));
   appendFixed(std::sin(yaw / 2), 12, line_);
   line_.push_back(' ');
   appendFixed(std::cos(yaw / 2), 12, line_);
-  line_.push_back('\n');
-  std::fwrite(line_.data(), 1, line_.size(), stream_);  // commit() looks for failures
+  endLine();
+}
+
+void TumFile::write(Stamp stamp, const geometry_msgs::Pose& pose) {
+  beginLine(stamp, pose.position.x, pose.position.y);
+  line_.push_back(' ');
+  appendFixed(pose.position.z, 9, line_);
+  for (const double part : {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w}) {
+    line_.push_back(' ');
+    appendFixed(part, 12, line_);
+  }
+  endLine();
 }
 
 void TumFile::close() {

@@ -86,7 +86,7 @@ void Scorer::add(const Estimate& estimate, const Reference& truth) {
     if (!known(group, truth)) continue;
     const auto [a, b] = kStatesOf[group];
     errors_[group].push_back(b < 0 ? std::abs(error(a)) : std::hypot(error(a), error(b)));
-    nees_[group].push_back(normalisedSquare(group, error, P));
+    if (P(a, a) > 0) nees_[group].push_back(normalisedSquare(group, error, P));  // zero is unknown
   }
   if (truth.heading_known && truth.speed_known && truth.current_known) nees_full_.push_back(normalisedSquare(estimate, truth));
   const double heading = truth.heading_known ? truth.state(kHeading) : estimate.belief.mean(kHeading);
@@ -97,18 +97,21 @@ void Scorer::add(const Estimate& estimate, const Reference& truth) {
   speeds_.push_back(truth.speed_known ? truth.state(kSpeed) : estimate.belief.mean(kSpeed));
 }
 
-void Scorer::add(const Audit& audit, std::optional<bool> outlier) {
-  ++scores_.verdicts[static_cast<std::size_t>(audit.verdict)];
-  const auto sensor = static_cast<std::size_t>(audit.sensor);
-  const bool fused = audit.verdict == Verdict::Accepted || audit.verdict == Verdict::DownWeighted || audit.verdict == Verdict::Rejected;
-  if (!fused || audit.rows == 0) return;
-  if (audit.S(0, 0) > 0) nis_[sensor].push_back(audit.nis);
+void AuditTally::add(Verdict verdict, double least_weight, std::optional<double> normalised, std::optional<bool> outlier) {
+  if (verdict == Verdict::Stale || verdict == Verdict::Invalid) return;
+  if (normalised) nis.push_back(*normalised);
   if (!outlier) return;
-  const bool flagged = audit.verdict == Verdict::Rejected || audit.weights.head(audit.rows).minCoeff() < kDownWeighted;
-  Detection& detection = scores_.detection[sensor];
+  const bool flagged = verdict == Verdict::Rejected || least_weight < kDownWeighted;
   detection.labelled += *outlier;
   detection.flagged += flagged;
   detection.hits += *outlier && flagged;
+}
+
+void Scorer::add(const Audit& audit, std::optional<bool> outlier) {
+  ++scores_.verdicts[static_cast<std::size_t>(audit.verdict)];
+  if (audit.rows == 0) return;
+  const auto nis = audit.S(0, 0) > 0 ? std::optional(audit.nis) : std::nullopt;
+  tallies_[static_cast<std::size_t>(audit.sensor)].add(audit.verdict, audit.weights.head(audit.rows).minCoeff(), nis, outlier);
 }
 
 Scores Scorer::scores() const {
@@ -116,11 +119,12 @@ Scores Scorer::scores() const {
   for (std::size_t i = 0; i < kGroups; ++i) {
     if (errors_[i].empty()) continue;
     result.error[i] = summarize(errors_[i]);
-    result.nees[i] = consistency(nees_[i], kStatesOf[i][1] < 0 ? 1 : 2);
+    if (!nees_[i].empty()) result.nees[i] = consistency(nees_[i], kStatesOf[i][1] < 0 ? 1 : 2);
   }
   if (!nees_full_.empty()) result.nees_full = consistency(nees_full_, kStates);
   for (std::size_t i = 0; i < kSensors; ++i)
-    if (!nis_[i].empty()) result.nis[i] = consistency(nis_[i], rowsOf(static_cast<Sensor>(i)));
+    if (!tallies_[i].nis.empty()) result.nis[i] = consistency(tallies_[i].nis, rowsOf(static_cast<Sensor>(i)));
+  for (std::size_t i = 0; i < kSensors; ++i) result.detection[i] = tallies_[i].detection;
   if (!along_.empty()) {
     result.drift = result.distance > 0 ? std::hypot(along_.back(), across_.back()) / result.distance : 0;
     result.aperture = apertureError(time_, along_, across_, mean(speeds_), aperture_);

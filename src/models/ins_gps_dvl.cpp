@@ -8,14 +8,18 @@
 #include "sas_motion/navigation/earth.hpp"
 
 namespace sas_motion::ins {
+
+Vector<3> rateOverGround(const NavigationState& ins, const Vector<3>& rate_body) {
+  return rate_body - ins.q_nav_body.conjugate() * earth::rotationRate(ins.latitude);
+}
+
 namespace {
 
 double markovDensity(double sigma, double time) { return 2 * sigma * sigma / time; }
 
 /// Velocity over the ground of a place on the body against the INS; body.
 Vector<3> leverVelocity(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& lever_body) {
-  const Vector<3> over_ground = rate_body - ins.q_nav_body.conjugate() * earth::rotationRate(ins.latitude);
-  return over_ground.cross(lever_body);
+  return rateOverGround(ins, rate_body).cross(lever_body);
 }
 
 Vector<3> positionOf(const NavigationState& state) { return {state.longitude, state.latitude, state.height}; }
@@ -25,6 +29,16 @@ Vector<3> positionOf(const NavigationState& state) { return {state.longitude, st
 const char* sensorName(Sensor sensor) {
   constexpr std::array<const char*, kSensors> names{"gps", "dvl", "depth", "dpc"};
   return names[static_cast<std::size_t>(sensor)];
+}
+
+Vector<3>& leverOf(Parameters& parameters, Sensor sensor) {
+  switch (sensor) {
+    case Sensor::Gps: return parameters.gps_lever_body;
+    case Sensor::Dvl: return parameters.dvl_lever_body;
+    case Sensor::Depth: return parameters.depth_lever_body;
+    case Sensor::Dpc: break;
+  }
+  return parameters.dpc_lever_body;
 }
 
 Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_nav) {

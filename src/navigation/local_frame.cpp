@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace sas_motion {
 namespace {
@@ -24,6 +25,13 @@ Vector<3> LocalFrame::position_enu(const Geodetic& point) const {
   Vector<3> position;
   plane_.Forward(point.latitude_deg, point.longitude_deg, point.altitude, position(0), position(1), position(2));
   return position;
+}
+
+Matrix<3> LocalFrame::C_map_nav(const Geodetic& point) const {
+  std::vector<double> rows(9);
+  Vector<3> position;
+  plane_.Forward(point.latitude_deg, point.longitude_deg, point.altitude, position(0), position(1), position(2), rows);
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
 }
 
 Geodetic LocalFrame::geodetic(const Vector<3>& position_enu) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/pipeline/ins_estimator.hpp"
 
+#include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/pipeline/ins_solutions.hpp"
 
 namespace sas_motion::ins {
@@ -25,6 +26,7 @@ class NavigatorEstimator final : public Estimator {
     if (const auto solution = solutionOf(*navigator_, source_)) output.solutions.push_back(*solution);
     return verdict;
   }
+  std::unique_ptr<Estimator> clone() const override { return std::make_unique<NavigatorEstimator>(*this); }
 
  private:
   Filter filter_;
@@ -35,6 +37,20 @@ class NavigatorEstimator final : public Estimator {
 };
 
 }  // namespace
+
+Solution movedBy(const Solution& solution, const Vector<3>& lever_body) {
+  Solution moved = solution;
+  const Eigen::Quaterniond& q = solution.state.q_nav_body;
+  const Vector<3> lever = q * lever_body, swing = solution.rate_body ? Vector<3>(q * solution.rate_body->cross(lever_body)) : Vector<3>::Zero();
+  displace(moved.state, lever);
+  moved.state.velocity_nav += swing;
+  if (!solution.covariance) return moved;
+  Matrix<9> J = Matrix<9>::Identity();  // C' l = C l + (C l) x phi
+  J.block<3, 3>(kVelocity, kAttitude) = crossMatrix(swing);
+  J.block<3, 3>(kPosition, kAttitude) = crossMatrix(lever);
+  moved.covariance = J * *solution.covariance * J.transpose();
+  return moved;
+}
 
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config) {
   const NamedSolution* found = findSolution(name);

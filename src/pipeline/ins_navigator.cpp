@@ -16,6 +16,9 @@ template <int M>
 Audit auditOf(const Aiding& reading, const Update<Gaussian<kStates>, M>& update) {
   Audit audit{reading.stamp, reading.sensor, update.verdict, update.nis};
   audit.weights.template head<M>() = update.weights;
+  audit.innovation.template head<M>() = update.innovation;
+  audit.S.template topLeftCorner<M, M>() = update.S;
+  audit.iterations = update.iterations;
   return audit;
 }
 
@@ -55,7 +58,9 @@ ImuStep Navigator<Filter>::add(const ImuReading& reading) {
   for (; !waiting_.empty() && waiting_.front().stamp <= reading.stamp; waiting_.pop_front()) {
     const Aiding& next = waiting_.front();
     if (next.stamp < ins_.stamp()) {
-      audits_.push_back({next.stamp, next.sensor, Verdict::Stale});
+      Audit stale{next.stamp, next.sensor, Verdict::Stale};
+      stale.reason = "older than the inertial unit's last reading";
+      audits_.push_back(stale);
       continue;
     }
     advance(reading, next.stamp);
@@ -101,7 +106,9 @@ void Navigator<Filter>::predict() {
 template <class Filter>
 void Navigator<Filter>::fuse(const Aiding& reading) {
   const NavigationState& ins = ins_.state();
-  const auto update = [&](const auto& z) {
+  if (reading.lever_body) model_.place(reading.sensor, *reading.lever_body);
+  const auto update = [&](auto z) {
+    if (reading.variance) z.R = reading.variance->head(z.R.rows()).asDiagonal();
     const auto result = filter_.update(belief_, z);
     lag_ += (result.belief.mean - belief_.mean).template head<3>();  // the fused velocity jumps by the opposite
     belief_ = result.belief;

@@ -41,19 +41,26 @@ const NamedSolution* findSolution(const std::string& name) {
 
 template <class Filter>
 std::optional<Solution> solutionOf(const Navigator<Filter>& navigator, Source source) {
-  const Stamp stamp = navigator.stamp();
+  Solution solution;
+  solution.stamp = navigator.stamp();
+  solution.rate_body = navigator.rate_body();
   switch (source) {
-    case Source::Fused: {
-      Solution solution{stamp, navigator.fused(), true, true, std::nullopt};
+    case Source::Fused:
+      solution.state = navigator.fused();
       if constexpr (!std::is_same_v<Filter, Unaided>) solution.covariance = covarianceOf(navigator.belief(), navigator.model().unit());
-      return solution;
-    }
-    case Source::Dvl: return Solution{stamp, navigator.dvl(), true, false, std::nullopt};
-    case Source::Smooth: return Solution{stamp, navigator.smooth(), true, true, std::nullopt};
+      break;
+    case Source::Dvl:
+      solution.state = navigator.dvl();
+      solution.lying = false;
+      break;
+    case Source::Smooth: solution.state = navigator.smooth(); break;
     case Source::Gps:
-      if (navigator.gps() && navigator.gps()->stamp == stamp) return Solution{stamp, navigator.gps()->state, false, false, std::nullopt};
+      if (!navigator.gps() || navigator.gps()->stamp != solution.stamp) return std::nullopt;
+      solution.state = navigator.gps()->state;
+      solution.moving = solution.lying = false;
+      solution.rate_body.reset();
   }
-  return std::nullopt;
+  return solution;
 }
 
 template std::optional<Solution> solutionOf(const Navigator<KalmanFilter<kStates>>&, Source);

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "sas_motion/ros/serving.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace sas_motion::ros_side {

@@ -15,7 +15,6 @@
 namespace sas_motion::ros_side {
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;   // messages of a topic that may wait
 constexpr double kDiagnosticPeriod = 1;  // [s, wall]
 
 FilterUpdate auditOf(const usbl::Ping& ping, const usbl::Calibrator::Report& report) {
@@ -52,7 +51,8 @@ CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::Nod
   subscribers_.push_back(node_.subscribe<sensor_msgs::NavSatFix>(
       settings_.transponder_topic, kQueue, [this](const Fix& m) { receive("", [this, m] { ingest_->takeTransponder(*m); }); }, {}, transport));
   subscribers_.push_back(node_.subscribe<sensor_msgs::Imu>(
-      settings_.imu_topic, kQueue, [this](const sensor_msgs::Imu::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); }, {}, transport));
+      settings_.imu_topic, kQueue, [this](const sensor_msgs::Imu::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); }, {},
+      transport));
   subscribers_.push_back(node_.subscribe<UsblMeasurement>(
       settings_.measurement_topic, kQueue, [this](const UsblMeasurement::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); }, {},
       transport));
@@ -99,8 +99,8 @@ void CalibrationServer::receive(const std::string& frame, std::function<void()> 
 /// The array usually has no transform, as nobody knows it yet; where it has a nominal one, that must not be missed.
 bool CalibrationServer::transformsReady() {
   if ((ros::WallTime::now() - first_message_).toSec() > transform_wait_) return true;
-  return frames_.size() >= 3 &&
-         std::all_of(frames_.begin(), frames_.end(), [&](const std::string& frame) { return transforms_.canTransform(settings_.base_frame, frame, ros::Time(0)); });
+  return frames_.size() >= 3 && std::all_of(frames_.begin(), frames_.end(),
+                                            [&](const std::string& frame) { return transforms_.canTransform(settings_.base_frame, frame, ros::Time(0)); });
 }
 
 void CalibrationServer::process(const usbl::Ping& ping) {
@@ -136,7 +136,8 @@ void CalibrationServer::publish(Lane& lane, const usbl::Ping& ping, const usbl::
 
 bool CalibrationServer::withinTolerance(const usbl::Calibrator& calibrator) const {
   const usbl::State sigma = calibrator.belief().covariance.diagonal().cwiseSqrt();
-  return calibrator.started() && observability_.observable && 3 * sigma.head<3>().maxCoeff() <= tolerance_.angle && 3 * sigma.tail<3>().maxCoeff() <= tolerance_.lever_arm;
+  return calibrator.started() && observability_.observable && 3 * sigma.head<3>().maxCoeff() <= tolerance_.angle &&
+         3 * sigma.tail<3>().maxCoeff() <= tolerance_.lever_arm;
 }
 
 void CalibrationServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -153,7 +154,8 @@ void CalibrationServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   const usbl::State sigma = first.belief().covariance.diagonal().cwiseSqrt();
   for (int i = 0; i < usbl::kStates; ++i) {
     const double unit = usbl::isAngle(i) ? kRadPerDeg : 1;
-    status.addf(usbl::unknownNames()[static_cast<std::size_t>(i)] + (usbl::isAngle(i) ? " [deg]" : " [m]"), "%.4f +- %.4f", first.belief().mean(i) / unit, 3 * sigma(i) / unit);
+    status.addf(usbl::unknownNames()[static_cast<std::size_t>(i)] + (usbl::isAngle(i) ? " [deg]" : " [m]"), "%.4f +- %.4f", first.belief().mean(i) / unit,
+                3 * sigma(i) / unit);
   }
   status.addf("pings", "%zu", observability_.pings);
   status.addf("measurements", "%lu", ingest_->builder().readings());

@@ -6,17 +6,15 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sas_motion/ros/believed_variance.hpp"
+
 namespace sas_motion::ros_side {
 namespace {
 
 using towfish::Sensor;
 using namespace towfish;  // the names of the states
 
-/// The variance that is believed of a message's: its own where usable, else the sensor's; not below the floor.
-double believedVariance(double variance, const SensorOptions& options) {
-  const bool usable = std::isfinite(variance) && variance > 0 && !options.override_message;
-  return std::max(usable ? variance : options.sigma * options.sigma, options.floor * options.floor);
-}
+double believed(double variance, const SensorOptions& options) { return believedVariance(variance, options.sigma, options.floor, options.override_message); }
 
 Measurement begin(const ros::Time& stamp, Sensor sensor, const Config& config) {
   Measurement z;
@@ -91,7 +89,7 @@ std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const
     z.value << enu(1), enu(0);
   }
   const bool known = fix.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
-  z.variance << believedVariance(known ? fix.position_covariance[4] : -1, options), believedVariance(known ? fix.position_covariance[0] : -1, options);
+  z.variance << believed(known ? fix.position_covariance[4] : -1, options), believed(known ? fix.position_covariance[0] : -1, options);
   z.lever_arm_body << T_base_gnss.translation().x(), -T_base_gnss.translation().y();
   return {z};
 }
@@ -105,14 +103,14 @@ std::vector<Measurement> measurementsOf(const sensor_msgs::Imu& imu, const Trans
     const bool unit = std::abs(q.squaredNorm() - 1) < 0.1;
     z.value(0) = unit ? headingOf(q.normalized() * Eigen::Quaterniond(T_base_imu.linear()).conjugate()) : NAN;
     z.value(1) = 0;
-    z.variance.setConstant(believedVariance(imu.orientation_covariance[8], heading));
+    z.variance.setConstant(believed(imu.orientation_covariance[8], heading));
     measurements.push_back(z);
   }
   if (rate.enabled && imu.angular_velocity_covariance[0] != -1) {
     Measurement z = begin(imu.header.stamp, Sensor::TurnRate, config);
     const auto& w = imu.angular_velocity;
     z.value << -(T_base_imu.linear() * Eigen::Vector3d(w.x, w.y, w.z)).z(), 0;
-    z.variance.setConstant(believedVariance(imu.angular_velocity_covariance[8], rate));
+    z.variance.setConstant(believed(imu.angular_velocity_covariance[8], rate));
     measurements.push_back(z);
   }
   return measurements;
@@ -131,7 +129,7 @@ std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovariance
     variance += axis(i) * axis(i) * twist.twist.covariance[7 * static_cast<std::size_t>(i)];
   }
   z.value << speed, 0;
-  z.variance.setConstant(believedVariance(variance, options));
+  z.variance.setConstant(believed(variance, options));
   return {z};
 }
 
@@ -236,7 +234,7 @@ sas_motion::FilterUpdate updateOf(const Audit& audit) {
   return update;
 }
 
-sensor_msgs::NavSatFix datumOf(const LocalFrame& frame, const Settings& settings, ros::Time stamp) {
+sensor_msgs::NavSatFix datumOf(const LocalFrame& frame, const MapSettings& settings, ros::Time stamp) {
   sensor_msgs::NavSatFix fix;
   fix.header.stamp = stamp;
   fix.header.frame_id = settings.map_frame;

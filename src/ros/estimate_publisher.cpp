@@ -2,20 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/ros/estimate_publisher.hpp"
 
-#include <boost/make_shared.hpp>
+#include "sas_motion/ros/serving.hpp"
 
 namespace sas_motion::ros_side {
-namespace {
-
-constexpr std::uint32_t kQueue = 1000;  // messages kept for a slow subscriber
-
-/// Publishes make() where somebody listens; by pointer, so that a nodelet of the same manager gets it without a copy.
-template <class Make>
-void publishTo(const ros::Publisher& publisher, const Make& make) {
-  if (publisher.getNumSubscribers() > 0) publisher.publish(boost::make_shared<std::decay_t<decltype(make())>>(make()));
-}
-
-}  // namespace
 
 EstimatePublisher::EstimatePublisher(ros::NodeHandle& node, const std::string& name)
     : odometry_(node.advertise<nav_msgs::Odometry>(name + "/odometry", kQueue)),

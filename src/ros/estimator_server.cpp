@@ -7,27 +7,6 @@
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace sas_motion::ros_side {
-namespace {
-
-constexpr std::uint32_t kQueue = 1000;  // messages kept for a slow callback
-constexpr std::size_t kWithEach = 4;    // settled answers published after a message at most: more than there are measurements in one
-
-geometry_msgs::TransformStamped mapToOdom(const Settings& settings, ros::Time stamp) {
-  geometry_msgs::TransformStamped T;
-  T.header.stamp = stamp;
-  T.header.frame_id = settings.map_frame;
-  T.child_frame_id = settings.odom_frame;
-  T.transform.rotation.w = 1;  // one estimate serves both: map and odom coincide
-  return T;
-}
-
-/// Replaces `value` by a private parameter where there is one.
-template <class T>
-void readParameter(const ros::NodeHandle& own, const std::string& key, T& value) {
-  if (own.hasParam(key) && !own.getParam(key, value)) throw ConfigError(fmt::format("~{} is of the wrong type", key));
-}
-
-}  // namespace
 
 EstimatorServer::EstimatorServer(const ros::NodeHandle& node, const ros::NodeHandle& own, const std::vector<std::string>& default_estimators)
     : node_(node), own_(own) {
@@ -104,7 +83,7 @@ void EstimatorServer::publishNow(Lane& lane) {
   lane.publisher.publishNow(*estimate, ingest_->frame() ? &*ingest_->frame() : nullptr, settings_);
   const bool moved = estimate->stamp != lane.published;  // late data change the answer at a stamp, but tf keeps the first
   lane.published = estimate->stamp;
-  if (publish_tf_ && moved && &lane == &lanes_.front()) broadcast(*estimate);
+  if (publish_tf_ && moved && &lane == &lanes_.front()) broadcastPose(broadcaster_, odometryOf(*estimate, settings_), settings_);
 }
 
 void EstimatorServer::queueSettled(Lane& lane) {
@@ -114,18 +93,6 @@ void EstimatorServer::queueSettled(Lane& lane) {
 
 void EstimatorServer::publishSettled(std::size_t most) {
   for (auto& lane : lanes_) lane.publisher.publishSettled(most, settings_);
-}
-
-void EstimatorServer::broadcast(const Estimate& estimate) {
-  const auto odometry = odometryOf(estimate, settings_);
-  geometry_msgs::TransformStamped T;
-  T.header.stamp = odometry.header.stamp;
-  T.header.frame_id = settings_.odom_frame;
-  T.child_frame_id = settings_.base_frame;
-  T.transform.translation.x = odometry.pose.pose.position.x;
-  T.transform.translation.y = odometry.pose.pose.position.y;
-  T.transform.rotation = odometry.pose.pose.orientation;
-  broadcaster_.sendTransform(std::vector<geometry_msgs::TransformStamped>{mapToOdom(settings_, T.header.stamp), T});
 }
 
 void EstimatorServer::publishDatum() {

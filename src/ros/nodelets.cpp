@@ -6,6 +6,7 @@
 
 #include "sas_motion/ros/calibration_server.hpp"
 #include "sas_motion/ros/estimator_server.hpp"
+#include "sas_motion/ros/ins_server.hpp"
 
 namespace sas_motion {
 namespace {
@@ -35,6 +36,12 @@ class SmootherNodelet final : public nodelet::Nodelet {
   std::unique_ptr<ros_side::EstimatorServer> server_;
 };
 
+/// The fusion of INS, GPS and DVL in 27 states, live: by default robust_ckf27.
+class InsFilterNodelet final : public nodelet::Nodelet {
+  void onInit() override { server_ = serve<ros_side::InsServer>(getNodeHandle(), getPrivateNodeHandle()); }
+  std::unique_ptr<ros_side::InsServer> server_;
+};
+
 /// A USBL calibration, live.
 class UsblCalibrationNodelet final : public nodelet::Nodelet {
   void onInit() override { server_ = serve<ros_side::CalibrationServer>(getNodeHandle(), getPrivateNodeHandle()); }
@@ -45,4 +52,5 @@ class UsblCalibrationNodelet final : public nodelet::Nodelet {
 
 PLUGINLIB_EXPORT_CLASS(sas_motion::FilterNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(sas_motion::SmootherNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(sas_motion::InsFilterNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(sas_motion::UsblCalibrationNodelet, nodelet::Nodelet)

@@ -2,32 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/ros/settings.hpp"
 
-#include <cmath>
+#include "sas_motion/config/yaml_vector.hpp"
 
 namespace sas_motion::ros_side {
+
+void MapSettings::readMap(YamlSection& yaml) {
+  auto frames = yaml.section("frames");
+  frames.text("map", map_frame);
+  frames.text("odom", odom_frame);
+  frames.text("base", base_frame);
+  frames.number("timeout", frame_timeout, {0, 3600});
+  frames.finish();
+  if (!yaml.has("datum")) return;
+  datum.emplace();
+  readGeodetic(yaml, "datum", *datum);
+}
 
 Settings Settings::fromFile(const std::string& file) {
   Settings settings;
   if (file.empty()) return settings;
   auto yaml = YamlSection::fromFile(file);
+  readSystem(yaml, "towfish");
   readConfig(yaml, settings.estimation);
   auto topics = yaml.section("topics");
   topics.text("fix", settings.fix_topic);
   topics.text("imu", settings.imu_topic);
   topics.text("twist", settings.twist_topic);
   topics.finish();
-  auto frames = yaml.section("frames");
-  frames.text("map", settings.map_frame);
-  frames.text("odom", settings.odom_frame);
-  frames.text("base", settings.base_frame);
-  frames.number("timeout", settings.frame_timeout, {0, 3600});
-  frames.finish();
-  if (yaml.has("datum")) {
-    std::vector<double> datum;
-    yaml.numbers("datum", datum, 3);
-    if (std::abs(datum[0]) > 90) yaml.fail("datum", "has a latitude beyond 90 degrees");
-    settings.datum = Geodetic{datum[0], datum[1], datum[2]};
-  }
+  settings.readMap(yaml);
   yaml.finish();
   return settings;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sas_motion/math/angles.hpp"
+#include "sas_motion/ros/believed_variance.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -21,17 +22,16 @@ geometry_msgs::Quaternion messageOf(const Eigen::Quaterniond& q) {
   return message;
 }
 
-double believedVariance(double stated, double sigma) {
-  if (std::isfinite(stated) && stated > 0) return stated;
-  return sigma > 0 ? sigma * sigma : std::numeric_limits<double>::quiet_NaN();
+double variance(double stated, double sigma) {
+  return usableVariance(stated) || sigma > 0 ? believedVariance(stated, sigma, 0, false) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
 
 usbl::Reading readingOf(const sas_motion::UsblMeasurement& message, const UsblSettings& settings) {
-  const double direction = believedVariance(message.direction_variance, settings.direction_sigma);
+  const double direction = variance(message.direction_variance, settings.direction_sigma);
   return {{message.slant_range, kPi - message.direction_y, message.direction_x},
-          {believedVariance(message.slant_range_variance, settings.range_sigma), direction, direction}};
+          {variance(message.slant_range_variance, settings.range_sigma), direction, direction}};
 }
 
 sas_motion::UsblMeasurement measurementOf(const usbl::Reading& reading) {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/ros/usbl_ingest.hpp"
 
-#include <tf2/exceptions.h>
-
 namespace sas_motion::ros_side {
 
 void UsblIngest::takeFix(const sensor_msgs::NavSatFix& message) {
@@ -45,7 +43,7 @@ void UsblIngest::take(const sas_motion::UsblMeasurement& message) {
   const std::string& frame = message.header.frame_id;
   if (builder_.readings() == 0 && (settings_.array_frame.empty() || settings_.array_frame == frame)) {
     array_frame_ = frame;
-    if (const auto T = lookUp(frame)) {
+    if (const auto T = frames_.find(frame)) {
       builder_.setNominal(mountingOf(*T));
       has_nominal_ = true;
     }
@@ -58,21 +56,11 @@ void UsblIngest::take(const sas_motion::UsblMeasurement& message) {
 }
 
 std::optional<Transform> UsblIngest::sensorAt(const std::string& frame) {
-  const auto found = known_.find(frame);
-  if (found != known_.end()) return found->second;
-  const auto T = lookUp(frame);
-  if (T) return known_[frame] = *T;  // sensors are fixed to the vessel
+  const auto T = frames_.find(frame);
+  if (T) return T;
   ++counts_.unknown_frame;
   counts_.frames.insert(frame);
   return std::nullopt;
-}
-
-std::optional<Transform> UsblIngest::lookUp(const std::string& frame) const {
-  try {
-    return transformOf(transforms_.lookupTransform(settings_.base_frame, frame, ros::Time(0)).transform);
-  } catch (const tf2::TransformException&) {
-    return std::nullopt;
-  }
 }
 
 }  // namespace sas_motion::ros_side

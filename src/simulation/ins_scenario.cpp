@@ -7,19 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sas_motion/config/ins_config.hpp"
 #include "sas_motion/config/yaml_vector.hpp"
 
 namespace sas_motion::ins {
 namespace {
-
-constexpr double kMicroG = 9.80665e-6;  // [m/s^2]
-
-/// A number that the file has in another unit.
-void scaled(YamlSection& yaml, const std::string& key, double& value, double unit, Range range) {
-  double number = value / unit;
-  yaml.number(key, number, range);
-  value = number * unit;
-}
 
 void readWave(YamlSection yaml, Wave& wave, bool angle) {
   if (angle)
@@ -45,18 +37,6 @@ void readWaves(YamlSection yaml, Track& track) {
   readWave(yaml.section("yaw"), track.yaw, true);
   readWave(yaml.section("heave"), track.heave, false);
   readWave(yaml.section("sway"), track.sway, false);
-  yaml.finish();
-}
-
-void readImu(YamlSection yaml, Scenario& scenario) {
-  Parameters& p = scenario.parameters;
-  yaml.number("rate", scenario.imu_rate, {10, 1e4});
-  scaled(yaml, "gyro_constant_deg_h", p.gyro_constant, kDegPerHour, {kTiny, 1e3});
-  scaled(yaml, "gyro_markov_deg_h", p.gyro_markov, kDegPerHour, {kTiny, 1e3});
-  yaml.number("gyro_time", p.gyro_time, {1, 1e7});
-  scaled(yaml, "angle_random_walk_deg_sqrt_h", p.angle_random_walk, kRadPerDeg / 60, {0, 10});
-  scaled(yaml, "accelerometer_constant_ug", p.accelerometer_constant, kMicroG, {kTiny, 1e5});
-  scaled(yaml, "velocity_random_walk_ug_sqrt_s", p.velocity_random_walk, kMicroG, {0, 1e5});
   yaml.finish();
 }
 
@@ -109,30 +89,24 @@ Scenario Scenario::read(YamlSection yaml) {
   Scenario scenario;
   Parameters& p = scenario.parameters;
   scenario.name = yaml.file();
-  std::string system = "ins_gps_dvl";
-  yaml.text("system", system);
-  if (system != "ins_gps_dvl") yaml.fail("system", fmt::format("is '{}' but must be ins_gps_dvl", system));
+  readSystem(yaml, "ins_gps_dvl");
   yaml.text("name", scenario.name);
   yaml.number("duration", scenario.duration, {1, 1e6});
   readGeodetic(yaml, "start", scenario.track.start, 85);
   readTrack(yaml.section("track"), scenario.track);
   readWaves(yaml.section("waves"), scenario.track);
-  readImu(yaml.section("imu"), scenario);
+  auto imu = yaml.section("imu");
+  readImuErrors(imu, p, scenario.imu_rate);
+  imu.finish();
   auto gps = yaml.section("gps");
-  readVector<3>(gps, "markov", p.gps_markov, kTiny);
-  gps.number("time", p.gps_time, {1, 1e7});
-  readVector<3>(gps, "white", p.gps_white, kTiny);
+  readGpsErrors(gps, p);
   readSensor(gps, scenario.sensor(Sensor::Gps), p.gps_lever_body);
   auto dvl = yaml.section("dvl");
-  dvl.number("markov", p.dvl_markov, {kTiny, 10});
-  dvl.number("time", p.dvl_time, {1, 1e7});
-  dvl.number("white", p.dvl_white, {kTiny, 10});
-  scaled(dvl, "scale_percent", p.dvl_scale, 0.01, {0, 20});
-  dvl.angle("misalignment_deg", p.dvl_misalignment, {0, 10});
+  readDvlErrors(dvl, p);
   readSensor(dvl, scenario.sensor(Sensor::Dvl), p.dvl_lever_body);
   p.dvl_rate = scenario.sensor(Sensor::Dvl).rate;
   auto depth = yaml.section("depth");
-  depth.number("white", p.depth_white, {kTiny, 1e3});
+  readDepthErrors(depth, p);
   readSensor(depth, scenario.sensor(Sensor::Depth), p.depth_lever_body);
   scenario.readDpc(yaml.section("dpc"));
   auto begin = yaml.section("initial");

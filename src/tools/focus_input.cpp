@@ -21,6 +21,7 @@ using imaging::TimedPose;
 namespace {
 
 const std::string kTruth = "truth/odometry", kLeaf = "/odometry";
+constexpr double kNotEstimated = 1e6;  // variance of what an odometry does not have
 
 std::optional<TimedPose> poseOf(const nav_msgs::Odometry& odometry) {
   const auto& p = odometry.pose.pose.position;
@@ -77,13 +78,14 @@ std::vector<RecordedTrajectory> named(const std::string& file, const std::vector
 struct Origins {
   std::optional<LocalFrame> datum;
   std::map<Stamp, Geodetic> fixes;
+  bool heights = false;  // the truth has heights: the others do too
 
   Eigen::Vector3d shiftOf(const std::vector<TimedPose>& truth) const {
     if (!datum) return Eigen::Vector3d::Zero();
     for (const auto& pose : truth)
       if (const auto fix = fixes.find(pose.stamp); fix != fixes.end()) {
         const Eigen::Vector3d shift = datum->position_enu(fix->second) - pose.position;
-        return {shift.x(), shift.y(), 0};
+        return {shift.x(), shift.y(), heights ? shift.z() : 0};
       }
     return Eigen::Vector3d::Zero();
   }
@@ -103,6 +105,7 @@ std::vector<RecordedTrajectory> readTrajectories(const std::string& file, const 
     const std::string topic = bareTopic(message->connection->topic);
     if (const auto found = poses.find(topic); found != poses.end() && bag.get(*message, odometry)) {
       if (const auto pose = poseOf(odometry)) found->second.push_back(*pose);
+      if (topic == kTruth) origins.heights = odometry.pose.covariance[14] < kNotEstimated;
     } else if (topic == "datum" && !origins.datum && bag.get(*message, fix)) {
       origins.datum.emplace(geodeticOf(fix));
     } else if (topic == "truth/fix" && origins.fixes.size() < 100 && bag.get(*message, fix) && hasPosition(fix)) {

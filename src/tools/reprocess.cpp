@@ -19,10 +19,8 @@
 
 #include "main_guard.hpp"
 #include "progress.hpp"
-#include "sas_motion/bag/bag_reader.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/io/fingerprint.hpp"
-#include "sas_motion/smoothers/factor_graph/estimators.hpp"
 
 namespace {
 
@@ -40,7 +38,9 @@ struct Options {
 
 /// What identifies a finished bag: the same input, configuration and estimators would give the same bytes again.
 json identity(const std::string& bag, const Options& options) {
-  return {{"input", Fingerprint::ofFile(bag)}, {"config", options.config.empty() ? "built in" : Fingerprint::ofFile(options.config)}, {"estimators", options.estimators}};
+  return {{"input", Fingerprint::ofFile(bag)},
+          {"config", options.config.empty() ? "built in" : Fingerprint::ofFile(options.config)},
+          {"estimators", options.estimators}};
 }
 
 json toJson(const ReprocessReport& report) {
@@ -50,6 +50,7 @@ json toJson(const ReprocessReport& report) {
   for (const auto& [name, e] : report.estimators)
     entry["results"][name] = {{"estimates", e.estimates},  {"accepted", e.verdicts[0]}, {"down_weighted", e.verdicts[1]},
                               {"rejected", e.verdicts[2]}, {"stale", e.verdicts[3]},    {"invalid", e.verdicts[4]}};
+  if (!report.remarks.empty()) entry["remarks"] = report.remarks;
   return entry;
 }
 
@@ -71,6 +72,7 @@ void printReport(const ReprocessReport& report) {
   for (const auto& [name, e] : report.estimators)
     fmt::print("  {:<14}{:>9} estimates, {} accepted, {} down-weighted, {} rejected, {} stale, {} invalid\n", name, e.estimates, e.verdicts[0], e.verdicts[1],
                e.verdicts[2], e.verdicts[3], e.verdicts[4]);
+  for (const auto& remark : report.remarks) fmt::print("  {}\n", remark);
 }
 
 /// A smoother that found no answer is an error, though the other estimators' results stand.
@@ -111,11 +113,17 @@ void requireDistinct(const Options& options) {
       throw std::runtime_error(fmt::format("{}: another bag of this name is among the inputs; reprocess it into another folder", bag));
 }
 
+void requireKnown(const std::vector<std::string>& estimators, const ReprocessSystem& system) {
+  try {
+    for (const auto& name : estimators) system.require(name);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("--estimators: {}", error.what()));
+  }
+}
+
 void run(const Options& options) {
-  const Settings settings = Settings::fromFile(options.config);
-  for (const auto& name : options.estimators)
-    if (!towfish::makeAnyEstimator(name, settings.estimation))
-      throw std::runtime_error(fmt::format("--estimators: '{}' is no estimator; known are {}", name, fmt::join(towfish::estimatorNames(), ", ")));
+  const auto system = makeReprocessSystem(options.config);
+  requireKnown(options.estimators, *system);
   requireDistinct(options);
   double duration = 0;
   for (const auto& bag : options.bags) {
@@ -139,7 +147,7 @@ void run(const Options& options) {
           const std::lock_guard<std::mutex> lock(mutex);
           if (manifest.has(name, id.get()) && std::filesystem::exists(options.out + "/" + name)) continue;
         }
-        const auto report = reprocess(bag, options.out, options.estimators, settings, [&](double seconds) { progress.advance(seconds); });
+        const auto report = reprocess(bag, options.out, options.estimators, *system, [&](double seconds) { progress.advance(seconds); });
         json entry = toJson(report);
         entry["identity"] = id.get();
         const std::lock_guard<std::mutex> lock(mutex);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "main_guard.hpp"
@@ -23,6 +24,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMostPoints = 6000;  // of one plotted series
 constexpr double kShortestOutage = 30;     // a gap between fixes that is reported as an outage [s]
+constexpr double kNotEstimated = 1e6;      // variance of what an estimator does not have
 
 struct Options {
   std::string bag, out;
@@ -69,22 +71,26 @@ class Judge {
 
   json metrics(const std::string& name, const RecordedEstimator& estimator, const json& cost) const {
     Scorer scorer(options_.aperture);
+    MotionScorer motions;
     TumFile tum(options_.out + "/" + name + ".tum"), truth_tum(options_.out + "/" + name + ".truth.tum");
     const Stamp from = recording_.begin + stampFromSeconds(options_.skip);
     for (const auto& estimate : estimator.estimates) {
-      const auto truth = recording_.truthAt(estimate.stamp);
+      auto truth = recording_.truthAt(estimate.stamp);
       if (estimate.stamp < from || !truth) continue;
+      truth->heading_known &= estimate.belief.covariance(kHeading, kHeading) < kNotEstimated;
+      truth->speed_known &= estimate.belief.covariance(kSpeed, kSpeed) < kNotEstimated;
       scorer.add(estimate, *truth);
       tum.write(estimate);
       truth_tum.write({estimate.stamp, {truth->state, StateMatrix::Identity()}});
     }
-    for (const auto& audit : estimator.audits) {
-      const auto label = recording_.outlier.find({audit.stamp, sensorName(audit.sensor)});
-      if (audit.stamp >= from) scorer.add(audit, label == recording_.outlier.end() ? std::nullopt : std::optional<bool>(label->second));
-    }
+    for (const auto& motion : estimator.motions)
+      if (const auto truth = recording_.motionAt(motion.stamp); truth && motion.stamp >= from) motions.add(motion, *truth);
     tum.commit();
     truth_tum.commit();
-    return describe(scorer.scores(), outages(recording_, estimator), cost);
+    json m = describe(scorer.scores(), outages(recording_, estimator), cost);
+    addMotions(motions.scores(), m);
+    addAudits(estimator, from, m);
+    return m;
   }
 
  private:
@@ -97,30 +103,56 @@ class Judge {
       if (s.error[group]) m[angle ? "heading_deg" : groupName(group)] = toJson(*s.error[group], angle ? kRadPerDeg : 1);
       if (s.nees[group]) m["nees"][groupName(group)] = toJson(*s.nees[group]);
     }
-    const ApertureError& a = s.aperture;
+    ApertureError a = s.aperture;
+    if (a.windows == 0) a.across = a.along = std::nan("");  // too few estimates for one
     m["aperture"] = {{"time", a.time},     {"wavelength", a.wavelength}, {"windows", a.windows},
                      {"across", a.across}, {"along", a.along},           {"across_wavelengths", a.across / a.wavelength}};
-    Detection all;
-    for (int i = 0; i < kSensors; ++i) {
-      const char* name = sensorName(static_cast<Sensor>(i));
-      const auto index = static_cast<std::size_t>(i);
-      if (s.nis[index]) m["nis"][name] = toJson(*s.nis[index]);
-      if (!recording_.labelled() || rowsOf(static_cast<Sensor>(i)) == 0) continue;
-      m["outliers"][name] = toJson(s.detection[index]);
-      all.labelled += s.detection[index].labelled;
-      all.flagged += s.detection[index].flagged;
-      all.hits += s.detection[index].hits;
-    }
-    if (recording_.labelled()) m["outliers"]["all"] = toJson(all);
     for (const auto& gap : gaps)
       m["outages"].push_back({{"begin", gap.begin},
                               {"duration", gap.duration},
                               {"distance", gap.distance},
                               {"error_end", gap.error_end},
                               {"drift_percent", 100 * gap.error_end / gap.distance}});
-    m["verdicts"] = {
-        {"accepted", s.verdicts[0]}, {"down_weighted", s.verdicts[1]}, {"rejected", s.verdicts[2]}, {"stale", s.verdicts[3]}, {"invalid", s.verdicts[4]}};
     return m;
+  }
+
+  static void addMotions(const MotionScores& scores, json& m) {
+    for (std::size_t i = 0; i < kMotionGroups; ++i) {
+      const std::string name = kMotionGroupNames[i];
+      const bool angle = i == kTiltGroup;
+      if (scores.error[i]) m[angle ? name + "_deg" : name] = toJson(*scores.error[i], angle ? kRadPerDeg : 1);
+      if (scores.nees[i]) m["nees"][name] = toJson(*scores.nees[i]);
+    }
+  }
+
+  /// What became of each sensor's measurements.
+  void addAudits(const RecordedEstimator& estimator, Stamp from, json& m) const {
+    std::map<std::string, AuditTally> tallies;
+    std::map<std::string, double> degrees;
+    std::array<std::size_t, 5> verdicts{};
+    for (const auto& audit : estimator.audits) {
+      if (audit.stamp < from) continue;
+      ++verdicts[static_cast<std::size_t>(audit.verdict)];
+      if (audit.rows == 0) continue;
+      const auto label = recording_.outlier.find({audit.stamp, audit.sensor});
+      tallies[audit.sensor].add(audit.verdict, audit.least_weight, audit.nis,
+                                label == recording_.outlier.end() ? std::nullopt : std::optional<bool>(label->second));
+      degrees[audit.sensor] = static_cast<double>(audit.rows);
+    }
+    const auto& motions = estimator.motions;  // a solution without covariance has no NIS to speak of
+    const bool consistent =
+        motions.empty() || std::any_of(motions.begin(), motions.end(), [](const MotionSample& motion) { return motion.P_position_map.has_value(); });
+    Detection all;
+    for (const auto& [name, tally] : tallies) {
+      if (!tally.nis.empty() && consistent) m["nis"][name] = toJson(consistency(tally.nis, degrees[name]));
+      if (!recording_.labelled()) continue;
+      m["outliers"][name] = toJson(tally.detection);
+      all.labelled += tally.detection.labelled;
+      all.flagged += tally.detection.flagged;
+      all.hits += tally.detection.hits;
+    }
+    if (recording_.labelled()) m["outliers"]["all"] = toJson(all);
+    m["verdicts"] = {{"accepted", verdicts[0]}, {"down_weighted", verdicts[1]}, {"rejected", verdicts[2]}, {"stale", verdicts[3]}, {"invalid", verdicts[4]}};
   }
 
   const Recording& recording_;
@@ -148,6 +180,19 @@ class Series {
   json columns_;
 };
 
+/// Beside the other states, sample by sample, where there are heights.
+void addHeights(const Recording& recording, const RecordedEstimator& estimator, json& all) {
+  if (estimator.motions.size() != estimator.estimates.size()) return;
+  Series heights({"error_up", "sigma_up"}, estimator.motions.size());
+  for (const auto& motion : estimator.motions) {
+    const auto truth = recording.motionAt(motion.stamp);
+    if (!truth) continue;
+    const double variance = motion.P_position_map ? (*motion.P_position_map)(2, 2) : 0;
+    heights.add({motion.position_map.z() - truth->position_map.z(), std::sqrt(variance)});
+  }
+  all.update(heights.columns());
+}
+
 json seriesOf(const Recording& recording, const RecordedEstimator& estimator) {
   Series states({"t", "north", "east", "error_north", "sigma_north", "error_east", "sigma_east", "error_heading_deg", "sigma_heading_deg"},
                 estimator.estimates.size());
@@ -161,17 +206,14 @@ json seriesOf(const Recording& recording, const RecordedEstimator& estimator) {
                 std::sqrt(P(kHeading, kHeading)) / kRadPerDeg});
   }
   json all = states.columns();
-  for (int i = 0; i < kSensors; ++i) {
-    const auto sensor = static_cast<Sensor>(i);
-    if (rowsOf(sensor) == 0) continue;
-    Series updates({"t", "weight", "nis"}, estimator.audits.size() / 3);
-    for (const auto& audit : estimator.audits)
-      if (audit.sensor == sensor && audit.rows > 0) {
-        const double weight = audit.weights.head(audit.rows).minCoeff();
-        updates.add({secondsBetween(recording.begin, audit.stamp), weight, audit.nis}, weight < kDownWeighted);
-      }
-    all["updates"][sensorName(sensor)] = updates.columns();
+  addHeights(recording, estimator, all);
+  std::map<std::string, Series> updates;
+  for (const auto& audit : estimator.audits) {
+    if (audit.rows == 0) continue;
+    auto& series = updates.try_emplace(audit.sensor, std::initializer_list<const char*>{"t", "weight", "nis"}, estimator.audits.size() / 3).first->second;
+    series.add({secondsBetween(recording.begin, audit.stamp), audit.least_weight, audit.nis.value_or(0)}, audit.least_weight < kDownWeighted);
   }
+  for (const auto& [sensor, series] : updates) all["updates"][sensor] = series.columns();
   return all;
 }
 
@@ -180,7 +222,8 @@ json seriesOf(const Recording& recording) {
   for (const auto& t : recording.truth) truth.add({secondsBetween(recording.begin, t.stamp), t.reference.state(kNorth), t.reference.state(kEast)});
   json fixes{{"t", json::array()}, {"north", json::array()}, {"east", json::array()}, {"outlier", json::array()}};
   for (const auto& fix : recording.fixes) {
-    const auto label = recording.outlier.find({fix.stamp, "position"});
+    auto label = recording.outlier.find({fix.stamp, "position"});
+    if (label == recording.outlier.end()) label = recording.outlier.find({fix.stamp, "gps"});
     fixes["t"].push_back(rounded(secondsBetween(recording.begin, fix.stamp)));
     fixes["north"].push_back(rounded(fix.position(0)));
     fixes["east"].push_back(rounded(fix.position(1)));

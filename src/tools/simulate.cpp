@@ -4,6 +4,7 @@
 // simulate SCENARIO.yaml -o OUT.bag: a scenario to a bag with sensors and truth.
 #include <cmath>
 
+#include "ins_recorder.hpp"
 #include "main_guard.hpp"
 #include "progress.hpp"
 #include "sas_motion/bag/bag_output.hpp"
@@ -50,14 +51,24 @@ void simulateUsbl(const Options& options) {
   bag.commit();
 }
 
+void simulateIns(const Options& options) {
+  ins::Scenario scenario = ins::Scenario::fromFile(options.scenario);
+  if (options.duration > 0) scenario.duration = options.duration;
+  BagOutput bag(options.out);
+  InsRecorder recorder(scenario, options.seed, bag);
+  Progress progress("simulate", scenario.duration, scenario.duration);
+  recorder.record([&](double seconds) { progress.advance(seconds); });
+  bag.commit();
+}
+
 void run(const Options& options) {
   auto yaml = YamlSection::fromFile(options.scenario);
-  std::string system = "towfish";
-  if (yaml.has("system")) {
-    yaml.text("system", system);
-    if (system != "usbl") yaml.fail("system", "is '" + system + "' but must be usbl, or left out for a towfish");
-  }
-  system == "usbl" ? simulateUsbl(options) : simulateTowfish(options);
+  std::string system;
+  yaml.text("system", system);
+  if (system.empty()) return simulateTowfish(options);
+  if (system == "usbl") return simulateUsbl(options);
+  if (system == "ins_gps_dvl") return simulateIns(options);
+  yaml.fail("system", "is '" + system + "' but must be usbl or ins_gps_dvl, or left out for a towfish");
 }
 
 }  // namespace
@@ -67,7 +78,8 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Simulates a scenario into a bag. A towfish's: gnss/fix, imu/data, dvl/twist, /tf_static, and truth/odometry, truth/fix, truth/current, truth/label. "
       "With 'system: usbl', a calibration's: gnss/fix, imu/data, usbl/measurement, usbl/transponder, /tf_static, and truth/odometry, truth/label, "
-      "truth/usbl_mounting.",
+      "truth/usbl_mounting. With 'system: ins_gps_dvl', a survey's: gnss/fix, imu/data, dvl/twist, depth/pose, /tf_static, and truth/odometry, truth/fix, "
+      "truth/label.",
       "simulate");
   app.add_option("SCENARIO", options.scenario, "scenario to play (YAML)")->required();
   app.add_option("-o,--output", options.out, "bag to write")->required();

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "usbl_recorder.hpp"
 
-#include <geometry_msgs/TransformStamped.h>
 #include <sas_motion/MeasurementLabel.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <array>
 #include <cmath>
 #include <string>
+
+#include "recorder_messages.hpp"
 
 namespace sas_motion {
 
@@ -27,26 +28,6 @@ struct Clock {
   long ticks = 0;
   double next() const { return phase + static_cast<double>(ticks) / rate; }
 };
-
-geometry_msgs::TransformStamped stamped(const std::string& parent, const std::string& child, ros::Time time, const Transform& transform) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = time;
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform = messageOf(transform);
-  return message;
-}
-
-sensor_msgs::NavSatFix fixAt(const Geodetic& point, const std::string& frame, ros::Time time) {
-  sensor_msgs::NavSatFix message;
-  message.header.stamp = time;
-  message.header.frame_id = frame;
-  message.latitude = point.latitude_deg;
-  message.longitude = point.longitude_deg;
-  message.altitude = point.altitude;
-  message.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
-  return message;
-}
 
 }  // namespace
 

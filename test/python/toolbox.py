@@ -68,8 +68,8 @@ def messages(bag, *wanted):
 def numbers(odometry):
     """All that an odometry message estimates."""
     pose, twist = odometry.pose.pose, odometry.twist.twist
-    return (pose.position.x, pose.position.y, pose.orientation.z, pose.orientation.w, twist.linear.x, twist.linear.y,
-            *odometry.pose.covariance, *odometry.twist.covariance)
+    return (*(getattr(pose.position, axis) for axis in "xyz"), *(getattr(pose.orientation, axis) for axis in "xyzw"),
+            *(getattr(part, axis) for part in (twist.linear, twist.angular) for axis in "xyz"), *odometry.pose.covariance, *odometry.twist.covariance)
 
 
 def by_stamp(odometry):

@@ -17,10 +17,10 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
 
 ARGUMENTS = {"vessel": [], "compare": ["bag:=a.bag", "output:=b.bag"], "reprocess": ["bag:=a.bag", "output:=out"], "view": [],
-             "usbl_calibration": ["bag:=a.bag"]}
+             "usbl_calibration": ["bag:=a.bag"], "ins_gps_dvl": ["bag:=a.bag", "output:=b.bag"]}
 NODES = {"vessel": {"/sas_motion_manager", "/filters", "/smoother"}, "compare": {"/manager", "/filters", "/smoother", "/recorder", "/session"},
          "reprocess": {"/reprocess"}, "view": {"/view_markers", "/rviz"},
-         "usbl_calibration": {"/usbl_calibration", "/player"}}
+         "usbl_calibration": {"/usbl_calibration", "/player"}, "ins_gps_dvl": {"/ins", "/player", "/recorder"}}
 
 
 def roslaunch(*arguments):

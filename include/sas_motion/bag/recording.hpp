@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sas_motion/evaluation/scores.hpp"
+#include "sas_motion/evaluation/motion_scores.hpp"
 #include "sas_motion/ros/conversions.hpp"
 
 namespace sas_motion::ros_side {
@@ -16,12 +16,24 @@ namespace sas_motion::ros_side {
 struct TruthPoint {
   Stamp stamp = 0;
   towfish::Reference reference;
+  std::optional<MotionSample> motion;  ///< where the truth has six degrees of freedom
+};
+
+/// An audit as a bag has it.
+struct RecordedAudit {
+  Stamp stamp = 0;
+  std::string sensor;
+  std::size_t rows = 0;
+  double least_weight = 1;
+  std::optional<double> nis;  ///< where the estimator has one
+  Verdict verdict = Verdict::Accepted;
 };
 
 /// What one estimator wrote into a bag. The speed of its states is forward over ground.
 struct RecordedEstimator {
   std::vector<Estimate> estimates;
-  std::vector<Audit> audits;
+  std::vector<MotionSample> motions;  ///< beside the estimates, of an estimator of six degrees of freedom
+  std::vector<RecordedAudit> audits;
 };
 
 struct RecordedFix {
@@ -45,6 +57,11 @@ struct Recording {
 
   /// Truth at a stamp by linear interpolation; nothing outside it or in a gap of more than a few seconds.
   std::optional<towfish::Reference> truthAt(Stamp stamp) const;
+  std::optional<MotionSample> motionAt(Stamp stamp) const;
+
+ private:
+  /// The truths around a stamp, with nothing between them; the same one twice at its own stamp.
+  std::optional<std::pair<const TruthPoint*, const TruthPoint*>> around(Stamp stamp) const;
 };
 
 }  // namespace sas_motion::ros_side

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
 #include "sas_motion/bag/chunk_file.hpp"
-#include "sas_motion/ros/settings.hpp"
+#include "sas_motion/ros/ins_settings.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -17,12 +16,17 @@ inline std::string bareTopic(const std::string& topic) { return !topic.empty() &
 /// The topics of a bag that hold the sensors, as the bag spells them; empty where there is none.
 struct SensorTopics {
   std::string fix, imu, twist;
-  std::set<std::string> transforms;
+};
+struct InsTopics : SensorTopics {
+  std::string depth;
 };
 
 /// Finds each sensor by its configured topic or, where the bag has no such topic, by its type when only one topic has it. Throws
 /// std::runtime_error where there is neither a position nor a heading, or where the choice is ambiguous.
 SensorTopics findTopics(const std::vector<BagConnection>& connections, const Settings& settings, const std::string& file);
+
+/// The same for a fusion of INS, GPS and DVL. Throws where a sensor that is enabled has no topic, and names all of those.
+InsTopics findTopics(const std::vector<BagConnection>& connections, const InsSettings& settings, const std::string& file);
 
 /// Whether a topic is what one of these estimators, or the datum, wrote in an earlier run.
 bool isEstimate(const std::string& topic, const std::vector<std::string>& estimators);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <geometry_msgs/Pose.h>
 
 #include <cstdio>
 #include <string>
@@ -21,12 +22,16 @@ class TumFile {
   TumFile& operator=(const TumFile&) = delete;
 
   void write(const towfish::Estimate& estimate);
+  void write(Stamp stamp, const geometry_msgs::Pose& pose);
   /// No more is written. Throws std::runtime_error naming the file where the disk is full.
   void close();
   /// Closes and puts in place.
   void commit();
 
  private:
+  void beginLine(Stamp stamp, double x, double y);
+  void endLine();
+
   std::string path_;
   AtomicFile file_;
   std::FILE* stream_;

@@ -31,4 +31,11 @@ inline void readGeodetic(YamlSection& yaml, const std::string& key, Geodetic& va
   value = {numbers(0), numbers(1), numbers(2)};
 }
 
+/// The key system, which says what a file is for and may be left out. Throws ConfigError.
+inline void readSystem(YamlSection& yaml, const std::string& expected) {
+  std::string system = expected;
+  yaml.text("system", system);
+  if (system != expected) yaml.fail("system", fmt::format("is '{}' but must be {}", system, expected));
+}
+
 }  // namespace sas_motion

@@ -34,6 +34,14 @@ struct Detection {
   std::optional<double> recall() const;
 };
 
+/// One sensor's audits, summed up.
+struct AuditTally {
+  std::vector<double> nis;
+  Detection detection;
+  /// `outlier` is the simulator's label of any of the rows, where there is one; nothing is known of the NIS where an estimator has none.
+  void add(Verdict verdict, double least_weight, std::optional<double> normalised, std::optional<bool> outlier);
+};
+
 /// A stretch without fixes, and how far off the estimate was at its end.
 struct Outage {
   double begin = 0, duration = 0, distance = 0, error_end = 0;
@@ -93,7 +101,7 @@ class Scorer {
   ApertureOptions aperture_;
   std::array<std::vector<double>, kGroups> errors_, nees_;
   std::vector<double> nees_full_;
-  std::array<std::vector<double>, kSensors> nis_;
+  std::array<AuditTally, kSensors> tallies_;
   Scores scores_;
   std::vector<double> time_, along_, across_;
   std::vector<double> speeds_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "sas_motion/filters/linearized.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/gaussian.hpp"
@@ -63,6 +65,7 @@ enum class Sensor { Gps, Dvl, Depth, Dpc };
 constexpr std::size_t kSensors = 4;
 const char* sensorName(Sensor sensor);
 constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : sensor == Sensor::Dpc ? 2 : 3; }
+Vector<3>& leverOf(Parameters& parameters, Sensor sensor);
 
 /// How the sonar's array moved from one ping to the next, by displaced phase centres: its mean velocity over the ground, which stands for the one in the
 /// middle of the interval T. That leaves v'' T^2 / 24: for 0.3 m of heave in 6 s at most 0.6 mm/s at 0.2 s and 0.2 mm/s at 0.125 s.
@@ -79,11 +82,17 @@ struct Aiding {
   NavigationState fix;                          ///< GPS: position of the antenna; depth: height of the sensor
   Vector<3> velocity_body = Vector<3>::Zero();  ///< DVL: its velocity over the ground
   ArrayVelocity array;                          ///< DPC
+  // Where the reading says more than the parameters do.
+  std::optional<Vector<3>> variance;    ///< of its white noise, a row each [m^2, m^2/s^2]
+  std::optional<Vector<3>> lever_body;  ///< its sensor from the INS, from now on [m]
 };
 
 /// Velocity, position and attitude rows of the INS error dynamics in SI units, (rad, rad, m) for the position. (C.2), with the derivative of
 /// gravity by latitude kept.
 Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_nav);
+
+/// Rate of the body over the ground, from that against inertial space; body [rad/s].
+Vector<3> rateOverGround(const NavigationState& ins, const Vector<3>& rate_body);
 
 /// The linear model of the 27 errors. Its units make them alike in size: metres east, north, up at a fixed place, mrad, urad/s, mm/s^2, m/s.
 class ErrorModel {
@@ -119,6 +128,8 @@ class ErrorModel {
 
   const Errors& unit() const { return unit_; }  ///< of each state: SI of part C = unit * state
   const Parameters& parameters() const { return parameters_; }
+  /// Where a sensor sits from the INS [m].
+  void place(Sensor sensor, const Vector<3>& lever_body) { leverOf(parameters_, sensor) = lever_body; }
   /// East, north, up of a position error in the model's metres, from longitude, latitude, height; and back.
   Vector<3> metresPerPosition() const { return unit_.segment<3>(kPosition).cwiseInverse(); }
 

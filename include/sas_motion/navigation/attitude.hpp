@@ -19,8 +19,7 @@ struct Attitude {
 /// The rotation of an attitude: v_map = C v_body = Rz(-heading) Rx(pitch) Ry(roll) v_body. [Titterton2004, 3.6, in these axes]
 inline Matrix<3> rotationOf(const Attitude& attitude) {
   using Eigen::AngleAxisd;
-  return (AngleAxisd(-attitude.heading, Vector<3>::UnitZ()) * AngleAxisd(attitude.pitch, Vector<3>::UnitX()) *
-          AngleAxisd(attitude.roll, Vector<3>::UnitY()))
+  return (AngleAxisd(-attitude.heading, Vector<3>::UnitZ()) * AngleAxisd(attitude.pitch, Vector<3>::UnitX()) * AngleAxisd(attitude.roll, Vector<3>::UnitY()))
       .toRotationMatrix();
 }
 

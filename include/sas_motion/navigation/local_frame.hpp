@@ -24,6 +24,8 @@ class LocalFrame {
   /// East, north and up of the datum [m].
   Vector<3> position_enu(const Geodetic& point) const;
   Geodetic geodetic(const Vector<3>& position_enu) const;
+  /// From east, north, up at a point to those of the datum.
+  Matrix<3> C_map_nav(const Geodetic& point) const;
   const Geodetic& datum() const { return datum_; }
 
  private:

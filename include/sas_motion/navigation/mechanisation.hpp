@@ -41,6 +41,8 @@ enum class ImuVerdict {
   Implausible,  ///< not finite, or more than the unit can measure; left out
 };
 
+constexpr std::size_t kImuVerdicts = 6;
+
 struct ImuStep {
   ImuVerdict verdict = ImuVerdict::Started;
   double dt = 0;  ///< integrated over [s]

@@ -32,10 +32,14 @@ struct Config {
 struct Solution {
   Stamp stamp = 0;
   NavigationState state;
-  bool moving = true;                   ///< velocity is known
-  bool lying = true;                    ///< attitude is known
-  std::optional<Matrix<9>> covariance;  ///< of velocity, position and attitude errors [m/s, m, rad], where the solution has one
+  bool moving = true;                                 ///< velocity is known
+  bool lying = true;                                  ///< attitude is known
+  std::optional<Matrix<9>> covariance;                ///< of velocity, position and attitude errors [m/s, m, rad], where the solution has one
+  std::optional<Vector<3>> rate_body = std::nullopt;  ///< of the body over the ground [rad/s], where the solution has one
 };
+
+/// The same solution of another point of the body, at a lever arm from the one it is of [m].
+Solution movedBy(const Solution& solution, const Vector<3>& lever_body);
 
 /// What an estimator has to say since it was last asked, in time order. The caller clears it.
 struct Output {
@@ -62,6 +66,8 @@ class Estimator {
   virtual void finish(Output&) {}
   /// Why the last finish() has no answer, in plain words; empty where all is well.
   virtual std::string failure() const { return ""; }
+  /// Another that goes on from here; null where the estimator keeps no present state.
+  virtual std::unique_ptr<Estimator> clone() const { return nullptr; }
 };
 
 /// ckf27, open_loop_ckf27, robust_ckf27, the sensors alone (ins, gps, dvl, and gps_ckf27 ... less their estimated errors), and smooth_ckf27,

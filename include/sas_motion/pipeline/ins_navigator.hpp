@@ -26,6 +26,10 @@ struct Audit {
   Verdict verdict = Verdict::Accepted;
   double nis = 0;
   Vector<3> weights = Vector<3>::Ones();
+  Vector<3> innovation = Vector<3>::Zero();  ///< what the INS says minus the reading, less the errors that are known of both
+  Matrix<3> S = Matrix<3>::Zero();           ///< its covariance, before any weighting
+  int iterations = 0;
+  const char* reason = "";  ///< plain words, a literal; empty where there is nothing to say
 };
 
 struct NavigatorOptions {
@@ -58,6 +62,8 @@ class Navigator {
 
   Stamp stamp() const { return ins_.stamp(); }
   NavigationState fused() const { return corrected(ins_.state(), belief_.mean, model_.unit()); }
+  /// Of the body over the ground; body [rad/s].
+  Vector<3> rate_body() const { return rateOverGround(ins_.state(), ins_.rate_body()); }
   /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors; the attitude is the fused one.
   struct Fix {
     Stamp stamp = 0;

@@ -16,6 +16,7 @@
 
 #include "sas_motion/calibration/calibrator.hpp"
 #include "sas_motion/calibration/observability.hpp"
+#include "sas_motion/ros/serving.hpp"
 #include "sas_motion/ros/usbl_ingest.hpp"
 
 namespace sas_motion::ros_side {

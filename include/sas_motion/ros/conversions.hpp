@@ -52,6 +52,6 @@ nav_msgs::Odometry odometryOf(const Estimate& estimate, const Settings& settings
 geometry_msgs::TwistWithCovarianceStamped currentOf(const Estimate& estimate, const Settings& settings);
 sensor_msgs::NavSatFix fixOf(const Estimate& estimate, const LocalFrame& frame, const Settings& settings);
 sas_motion::FilterUpdate updateOf(const Audit& audit);
-sensor_msgs::NavSatFix datumOf(const LocalFrame& frame, const Settings& settings, ros::Time stamp);
+sensor_msgs::NavSatFix datumOf(const LocalFrame& frame, const MapSettings& settings, ros::Time stamp);
 
 }  // namespace sas_motion::ros_side

@@ -36,8 +36,4 @@ class EstimatePublisher {
   std::deque<Audit> audits_;
 };
 
-// A whole recording at once would overrun its subscribers: rosbag record keeps 100 messages of a topic.
-constexpr std::size_t kBurst = 25;       // messages of a topic at once
-constexpr double kBetweenBursts = 0.05;  // [s]
-
 }  // namespace sas_motion::ros_side

@@ -10,7 +10,6 @@
 #include <sas_motion/SetState.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <memory>
@@ -20,8 +19,8 @@
 #include "sas_motion/ros/batch_solver.hpp"
 #include "sas_motion/ros/estimate_publisher.hpp"
 #include "sas_motion/ros/ingest.hpp"
-#include "sas_motion/ros/latency.hpp"
 #include "sas_motion/ros/reconfigure.hpp"
+#include "sas_motion/ros/serving.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -52,12 +51,10 @@ class EstimatorServer {
   void publishNow(Lane& lane);
   void queueSettled(Lane& lane);
   void publishSettled(std::size_t most);
-  void broadcast(const Estimate& estimate);
   void publishDatum();
   void onIdle(const ros::WallTimerEvent&);
   void startAnew();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void diagnoseSensors(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseLane(const Lane& lane, diagnostic_updater::DiagnosticStatusWrapper& status);
   bool onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool onSetDatum(SetDatum::Request& request, SetDatum::Response& response);

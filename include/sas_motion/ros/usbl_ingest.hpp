@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <tf2/buffer_core.h>
-
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "sas_motion/ros/inbox.hpp"
 #include "sas_motion/ros/usbl_conversions.hpp"
 
 namespace sas_motion::ros_side {
@@ -29,7 +28,8 @@ class UsblIngest {
   };
 
   /// `transforms` outlives the ingest.
-  UsblIngest(const UsblSettings& settings, const tf2::BufferCore& transforms) : settings_(settings), transforms_(transforms), builder_(settings.pings) {}
+  UsblIngest(const UsblSettings& settings, const tf2::BufferCore& transforms)
+      : settings_(settings), frames_(transforms, settings.base_frame), builder_(settings.pings) {}
 
   void takeFix(const sensor_msgs::NavSatFix& message);
   void takeTransponder(const sensor_msgs::NavSatFix& message);
@@ -47,16 +47,14 @@ class UsblIngest {
   bool hasNominal() const { return has_nominal_; }
 
  private:
-  std::optional<Transform> lookUp(const std::string& frame) const;
-  /// The same, and counts where there is none.
+  /// Where a sensor sits; counts where nothing is known of it.
   std::optional<Transform> sensorAt(const std::string& frame);
 
   UsblSettings settings_;
-  const tf2::BufferCore& transforms_;
+  SensorFrames frames_;
   usbl::PingBuilder builder_;
   Counts counts_;
   std::map<std::uint32_t, Geodetic> transponders_;
-  std::map<std::string, Transform> known_;
   std::string array_frame_;
   bool has_nominal_ = false;
 };

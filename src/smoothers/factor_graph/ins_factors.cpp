@@ -62,6 +62,7 @@ void withMeasurement(const ErrorModel& model, const NavigationState& ins, const 
 }
 
 double sigmaOf(const ErrorModel& model, const Aiding& reading, int row) {
+  if (reading.variance) return std::sqrt((*reading.variance)(row));
   double sigma = 0;
   withMeasurement(model, {}, reading, Vector<3>::Zero(), Errors::Zero(), [&](const auto& z) { sigma = std::sqrt(z.R(row, row)); });
   return sigma;

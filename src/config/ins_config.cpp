@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/config/ins_config.hpp"
+
+#include "sas_motion/config/yaml_vector.hpp"
+
+namespace sas_motion::ins {
+namespace {
+
+constexpr double kMicroG = 9.80665e-6;  // [m/s^2]
+
+/// A number that the file has in another unit.
+void scaled(YamlSection& yaml, const std::string& key, double& value, double unit, Range range) {
+  double number = value / unit;
+  yaml.number(key, number, range);
+  value = number * unit;
+}
+
+void readMessages(YamlSection& yaml, MessageOptions& options) {
+  yaml.number("floor", options.floor, {0, 1e4});
+  yaml.boolean("override_message", options.override_message);
+  yaml.number("time_offset", options.time_offset, {-3600, 3600});
+  yaml.boolean("enabled", options.enabled);
+  yaml.finish();
+}
+
+void readImu(YamlSection yaml, Settings& settings) {
+  Config& config = settings.session.config;
+  double rate = 1 / config.imu.period;
+  readImuErrors(yaml, config.parameters, rate);
+  config.imu.period = 1 / rate;
+  yaml.number("longest_gap", config.imu.longest_gap, {kTiny, 10});
+  yaml.angle("max_rate_deg", config.imu.max_rate, {1, 1e5});
+  yaml.number("max_force", config.imu.max_force, {10, 1e5});
+  yaml.number("time_offset", settings.imu_time_offset, {-3600, 3600});
+  yaml.finish();
+}
+
+void readStart(YamlSection yaml, SessionOptions& session) {
+  AlignmentOptions& alignment = session.alignment;
+  yaml.number("max_age", alignment.max_age, {kTiny, 60});
+  yaml.number("velocity_wait", alignment.velocity_wait, {0, 1e6});
+  yaml.number("position_sigma", alignment.position_sigma, {kTiny, 1e5});
+  yaml.number("velocity_sigma", alignment.velocity_sigma, {kTiny, 100});
+  yaml.number("rest_velocity_sigma", alignment.rest_velocity_sigma, {kTiny, 100});
+  yaml.angle("tilt_deg", session.config.parameters.start_tilt, {kTiny, 10});
+  yaml.angle("heading_deg", session.config.parameters.start_heading, {kTiny, 10});
+  yaml.finish();
+}
+
+}  // namespace
+
+void readImuErrors(YamlSection& yaml, Parameters& p, double& rate) {
+  yaml.number("rate", rate, {10, 1e4});
+  scaled(yaml, "gyro_constant_deg_h", p.gyro_constant, kDegPerHour, {kTiny, 1e3});
+  scaled(yaml, "gyro_markov_deg_h", p.gyro_markov, kDegPerHour, {kTiny, 1e3});
+  yaml.number("gyro_time", p.gyro_time, {1, 1e7});
+  scaled(yaml, "angle_random_walk_deg_sqrt_h", p.angle_random_walk, kRadPerDeg / 60, {0, 10});
+  scaled(yaml, "accelerometer_constant_ug", p.accelerometer_constant, kMicroG, {kTiny, 1e5});
+  scaled(yaml, "velocity_random_walk_ug_sqrt_s", p.velocity_random_walk, kMicroG, {0, 1e5});
+}
+
+void readGpsErrors(YamlSection& yaml, Parameters& p) {
+  readVector<3>(yaml, "markov", p.gps_markov, kTiny);
+  yaml.number("time", p.gps_time, {1, 1e7});
+  readVector<3>(yaml, "white", p.gps_white, kTiny);
+}
+
+void readDvlErrors(YamlSection& yaml, Parameters& p) {
+  yaml.number("markov", p.dvl_markov, {kTiny, 10});
+  yaml.number("time", p.dvl_time, {1, 1e7});
+  yaml.number("white", p.dvl_white, {kTiny, 10});
+  scaled(yaml, "scale_percent", p.dvl_scale, 0.01, {0, 20});
+  yaml.angle("misalignment_deg", p.dvl_misalignment, {0, 10});
+}
+
+void readDepthErrors(YamlSection& yaml, Parameters& p) { yaml.number("white", p.depth_white, {kTiny, 1e3}); }
+
+void readSettings(YamlSection& yaml, Settings& settings) {
+  Parameters& p = settings.session.config.parameters;
+  readSystem(yaml, "ins_gps_dvl");
+  readImu(yaml.section("imu"), settings);
+  auto gps = yaml.section("gps");
+  readGpsErrors(gps, p);
+  readMessages(gps, settings.of(Sensor::Gps));
+  auto dvl = yaml.section("dvl");
+  dvl.number("rate", p.dvl_rate, {0.001, 1e3});
+  readDvlErrors(dvl, p);
+  readMessages(dvl, settings.of(Sensor::Dvl));
+  auto depth = yaml.section("depth");
+  readDepthErrors(depth, p);
+  depth.number("surface", settings.surface, {-1e4, 1e4});
+  readMessages(depth, settings.of(Sensor::Depth));
+  readStart(yaml.section("start"), settings.session);
+  yaml.number("lag", settings.session.lag, {0, 3600});
+  yaml.number("max_gap", settings.session.max_gap, {kTiny, 1e6});
+  yaml.number("output_rate", settings.output_rate, {0.001, 1e4});
+}
+
+}  // namespace sas_motion::ins
