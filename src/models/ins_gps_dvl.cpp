@@ -5,14 +5,13 @@
 #include <array>
 #include <cmath>
 
+#include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
 
 namespace sas_motion::ins {
 namespace {
 
 constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
-
-Matrix<3> cross(const Vector<3>& v) { return (Matrix<3>() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished(); }
 
 double markovDensity(double sigma, double time) { return 2 * sigma * sigma / time; }
 
@@ -82,7 +81,7 @@ ErrorMatrix ErrorModel::dynamics(const Motion& motion) const {
   // Dead reckoning turns the reading by the computed attitude: C' v = C v + v x phi.
   const auto scale = unit_.segment<3>(kPosition).asDiagonal();
   F.block<3, 3>(kDvlPosition, kDvlVelocity) = scale * C;
-  F.block<3, 3>(kDvlPosition, kAttitude) = scale * cross(motion.state.velocity_nav);
+  F.block<3, 3>(kDvlPosition, kAttitude) = scale * skew(motion.state.velocity_nav);
   return unit_.cwiseInverse().asDiagonal() * F * unit_.asDiagonal();
 }
 
@@ -118,7 +117,7 @@ LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const 
   difference.x() = wrapAngle(difference.x());
   z.H.setZero();
   z.H.block<3, 3>(0, kPosition).setIdentity();
-  z.H.block<3, 3>(0, kAttitude) = kMilliradian * cross(lever);
+  z.H.block<3, 3>(0, kAttitude) = kMilliradian * skew(lever);
   z.H.block<3, 3>(0, kGpsPosition) = -Matrix<3>::Identity();
   z.R = parameters_.gps_white.cwiseAbs2().asDiagonal();
   z.innovation = difference.cwiseProduct(metresPerPosition()) + lever - z.H * mean;
@@ -136,7 +135,7 @@ LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const 
   const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
   z.H.setZero();
   z.H.block<3, 3>(0, kVelocity) = C_body_nav;
-  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * cross(ins.velocity_nav);
+  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * skew(ins.velocity_nav);
   z.H.block<3, 3>(0, kDvlVelocity) = -Matrix<3>::Identity();
   z.R = parameters_.dvl_white * parameters_.dvl_white * Matrix<3>::Identity();
   z.innovation = C_body_nav * ins.velocity_nav - velocityOfIns(ins, rate_body, velocity_body) - z.H * mean;
@@ -148,7 +147,7 @@ LinearMeasurement<kStates, 1> ErrorModel::depth(const NavigationState& ins, doub
   const Vector<3> lever = ins.q_nav_body * parameters_.depth_lever_body;
   z.H.setZero();
   z.H(0, kPosition + 2) = 1;
-  z.H.block<1, 3>(0, kAttitude) = kMilliradian * cross(lever).row(2);
+  z.H.block<1, 3>(0, kAttitude) = kMilliradian * skew(lever).row(2);
   z.R(0, 0) = parameters_.depth_white * parameters_.depth_white;
   z.innovation = Vector<1>(ins.height + lever.z() - height) - z.H * mean;
   return z;
