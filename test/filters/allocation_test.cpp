@@ -148,7 +148,7 @@ TEST_F(Allocation, ParticlesUseNoHeap) {
   const SigmaPointFilter covariance_form(unscentedPoints<4>({1, 0, 1}));
   for (const auto weighting : {Weighting::Mixture, Weighting::OptimalProposal, Weighting::Literal}) {
     options.weighting = weighting;
-    expectNoAllocationOfParticles("ss_srupf", UnscentedParticleFilter<4, SquareRootFilter<4, 6>>(root_form, options));
+    expectNoAllocationOfParticles("ss_srupf", UnscentedParticleFilter<4, SimplexFilter<4>>(root_form, options));
     expectNoAllocationOfParticles("upf", UnscentedParticleFilter<4, SigmaPointFilter<4, 9>>(covariance_form, options));
   }
 }

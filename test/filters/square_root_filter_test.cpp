@@ -58,8 +58,8 @@ TEST(SquareRoots, KeepWhatASquareWouldLose) {
   EXPECT_NEAR(root(1, 1), std::sqrt(2.0) * 1e-9, 1e-15);
 }
 
-template <int Count>
-void expectTheKalmanFilter(const SigmaPoints<6, Count>& points) {
+template <class Points>
+void expectTheKalmanFilter(const Points& points) {
   const SquareRootFilter filter(points);
   Random random = announced(62);
   for (int i = 0; i < 30; ++i) {
@@ -90,8 +90,8 @@ TEST(SquareRootFilter, IsTheKalmanFilterOnALinearModel) {
 Vector<6> bend(const Vector<6>& x) { return x + 0.1 * (x.array().sin() * x.reverse().array()).matrix(); }
 Vector<2> look(const Vector<6>& x) { return {std::hypot(x(0) - 9, x(1)), x(4) * x(5) + x(2)}; }
 
-template <int Count>
-void expectTheCovarianceForm(const SigmaPoints<6, Count>& points) {
+template <class Points>
+void expectTheCovarianceForm(const Points& points) {
   const SquareRootFilter root_form(points);
   const SigmaPointFilter covariance_form(points);
   Random random = announced(63);

@@ -16,7 +16,7 @@ namespace sas_motion {
 ///
 /// With weights that are not negative a prediction only adds squares, and no downdate can fail for good. Noise is additive and given by a
 /// lower triangular root with a diagonal that is not negative; the points are drawn anew for every update.
-template <int N, int Count>
+template <int N, int Count, class Points = SigmaPoints<N, Count>>
 class SquareRootFilter {
  public:
   using Belief = RootGaussian<N>;
@@ -24,14 +24,14 @@ class SquareRootFilter {
   using Image = SigmaImage<N, M, Count>;
 
   /// Throws std::invalid_argument where a weight is negative.
-  explicit SquareRootFilter(const SigmaPoints<N, Count>& points) : points_(points), root_weights_(points.covariance_weights.cwiseSqrt()) {
+  explicit SquareRootFilter(const Points& points) : points_(points), root_weights_(points.covariance_weights.cwiseSqrt()) {
     if (!(points.covariance_weights.minCoeff() >= 0)) throw std::invalid_argument("a square-root filter needs sigma points without negative weights");
   }
 
   /// The belief after x' = f(x) + w, w ~ N(0, Q_root Q_root^T), or nothing where a value is not finite.
   template <class Function, class Difference = PlainDifference>
   std::optional<Belief> predict(const Belief& belief, const Function& f, const Matrix<N>& Q_root, const Difference& difference = {}) const {
-    const auto image = imageOf<N>(points_, belief.mean, spread(belief.root), f, difference);
+    const auto image = imageOf<N>(points_, belief.mean, spread(points_, belief.root), f, difference);
     Belief prior{image.mean, Q_root};
     addSquares<N, Count>(prior.root, weighted<N>(image.deviations));
     if (!prior.mean.allFinite() || !prior.root.allFinite()) return std::nullopt;
@@ -42,7 +42,7 @@ class SquareRootFilter {
   template <int M, class Function, class Difference = PlainDifference>
   std::optional<Image<M>> project(const Belief& prior, const Function& h, const Difference& difference = {}) const {
     if (!prior.mean.allFinite() || !prior.root.allFinite()) return std::nullopt;
-    return imageOf<M>(points_, prior.mean, spread(prior.root), h, difference);
+    return imageOf<M>(points_, prior.mean, spread(points_, prior.root), h, difference);
   }
 
   /// Fuses an innovation, z less the image's mean, with noise of covariance R_root R_root^T.
@@ -92,7 +92,6 @@ class SquareRootFilter {
   }
 
  private:
-  Matrix<N, Count> spread(const Matrix<N>& root) const { return root * points_.offsets; }
   template <int Rows>
   Matrix<Rows, Count> weighted(const Matrix<Rows, Count>& deviations) const {
     return deviations * root_weights_.asDiagonal();
@@ -114,8 +113,17 @@ class SquareRootFilter {
     return root;
   }
 
-  SigmaPoints<N, Count> points_;
+  Points points_;
   Vector<Count> root_weights_;
 };
+
+template <int N, int Count>
+SquareRootFilter(const SigmaPoints<N, Count>&) -> SquareRootFilter<N, Count>;
+template <int N>
+SquareRootFilter(const SimplexPoints<N>&) -> SquareRootFilter<N, N + 2, SimplexPoints<N>>;
+
+/// The SS-SRUKF. [Li2014]
+template <int N>
+using SimplexFilter = SquareRootFilter<N, N + 2, SimplexPoints<N>>;
 
 }  // namespace sas_motion

@@ -20,7 +20,7 @@ using testing::announced;
 template <int N>
 using Upf = UnscentedParticleFilter<N, SigmaPointFilter<N, 2 * N + 1>>;
 template <int N>
-using SsSrupf = UnscentedParticleFilter<N, SquareRootFilter<N, N + 2>>;
+using SsSrupf = UnscentedParticleFilter<N, SimplexFilter<N>>;
 
 ParticleOptions options(int particles, std::uint64_t seed = 1, int threads = 1) {
   ParticleOptions all;

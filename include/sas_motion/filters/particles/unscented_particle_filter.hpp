@@ -18,7 +18,7 @@ enum class Weighting {
 
 struct UnscentedParticleOptions : ParticleOptions {
   Weighting weighting = Weighting::Mixture;
-  double kept = 0.5;  ///< of its covariance by each copy of a Gaussian; the copies are drawn from the rest, so that the mixture's stays
+  double kept = 0.95;  ///< of its covariance by each copy of a Gaussian; the copies are drawn from the rest, so that the mixture's stays
 };
 
 /// A particle filter whose particles each run a sigma-point filter, `Filter`: with SigmaPointFilter and unscented points the UPF [Merwe2000], with
@@ -39,17 +39,19 @@ class UnscentedParticleFilter {
       : filter_(filter), weighting_(options.weighting), kept_(options.kept), crowd_(options) {}
 
   /// Draws the particles from a belief; false where its covariance is not positive definite.
-  bool start(const Gaussian<N>& belief) {
-    const auto root = choleskyLower<N>(belief.covariance);
-    if (!root) return false;
+  bool start(const Gaussian<N>& belief) { return start(belief, belief.covariance); }
+
+  /// Likewise; a Gaussian of the mixture keeps of `own` what a copy keeps and no more, so that a function is near enough to linear over it.
+  bool start(const Gaussian<N>& belief, const Matrix<N>& own) {
+    const auto root = choleskyLower<N>(belief.covariance), drawn = choleskyLower<N>(belief.covariance - kept_ * own), kept = choleskyLower<N>(kept_ * own);
+    if (!root || !drawn || !kept) return false;
     crowd_.nextStep();
     noise_root_.setZero();
+    const bool mixture = weighting_ == Weighting::Mixture, alone = mixture && crowd_.size() == 1;
     crowd_.forEach([&](std::size_t i) {
-      crowd_[i] = {Form::of(belief.mean, *root), belief.mean};
-      if (weighting_ == Weighting::Mixture)
-        split(crowd_[i], static_cast<std::ptrdiff_t>(crowd_.size()), i);
-      else
-        move(crowd_[i], belief.mean + *root * crowd_.template gaussians<N>(i));
+      const Matrix<N>& spread = mixture ? *drawn : *root;
+      crowd_[i].belief = Form::of(belief.mean, mixture && !alone ? *kept : *root);
+      move(crowd_[i], alone ? belief.mean : Vector<N>(belief.mean + spread * crowd_.template gaussians<N>(i)));
     });
     crowd_.weights().makeEqual();
     return true;
