@@ -14,13 +14,6 @@ namespace {
 
 constexpr double kMicroG = 9.80665e-6;  // [m/s^2]
 
-/// A number that the file has in another unit.
-void scaled(YamlSection& yaml, const std::string& key, double& value, double unit, Range range) {
-  double number = value / unit;
-  yaml.number(key, number, range);
-  value = number * unit;
-}
-
 void readWave(YamlSection yaml, Wave& wave, bool angle) {
   if (angle)
     yaml.angle("amplitude_deg", wave.amplitude, {0, 45});
@@ -31,11 +24,12 @@ void readWave(YamlSection yaml, Wave& wave, bool angle) {
   yaml.finish();
 }
 
-void readTrack(YamlSection yaml, Track& track) {
+void readLines(YamlSection yaml, Track& track) {
   yaml.number("speed", track.speed, {0.01, 50});
   yaml.angle("heading_deg", track.heading, {-360, 360});
   yaml.number("line_length", track.line_length, {1, 1e6});
   yaml.angle("turn_rate_deg", track.turn_rate, {0.01, 90});
+  yaml.boolean("along_bow", track.along_bow);
   yaml.finish();
 }
 
@@ -51,12 +45,12 @@ void readWaves(YamlSection yaml, Track& track) {
 void readImu(YamlSection yaml, Scenario& scenario) {
   Parameters& p = scenario.parameters;
   yaml.number("rate", scenario.imu_rate, {10, 1e4});
-  scaled(yaml, "gyro_constant_deg_h", p.gyro_constant, kDegPerHour, {kTiny, 1e3});
-  scaled(yaml, "gyro_markov_deg_h", p.gyro_markov, kDegPerHour, {kTiny, 1e3});
+  readScaled(yaml, "gyro_constant_deg_h", p.gyro_constant, kDegPerHour, {kTiny, 1e3});
+  readScaled(yaml, "gyro_markov_deg_h", p.gyro_markov, kDegPerHour, {kTiny, 1e3});
   yaml.number("gyro_time", p.gyro_time, {1, 1e7});
-  scaled(yaml, "angle_random_walk_deg_sqrt_h", p.angle_random_walk, kRadPerDeg / 60, {0, 10});
-  scaled(yaml, "accelerometer_constant_ug", p.accelerometer_constant, kMicroG, {kTiny, 1e5});
-  scaled(yaml, "velocity_random_walk_ug_sqrt_s", p.velocity_random_walk, kMicroG, {0, 1e5});
+  readScaled(yaml, "angle_random_walk_deg_sqrt_h", p.angle_random_walk, kRadPerDeg / 60, {0, 10});
+  readScaled(yaml, "accelerometer_constant_ug", p.accelerometer_constant, kMicroG, {kTiny, 1e5});
+  readScaled(yaml, "velocity_random_walk_ug_sqrt_s", p.velocity_random_walk, kMicroG, {0, 1e5});
   yaml.finish();
 }
 
@@ -69,6 +63,12 @@ void readSensor(YamlSection& yaml, Scenario::Readings& readings, Vector<3>& leve
 }
 
 }  // namespace
+
+void readTrack(YamlSection& yaml, Track& track) {
+  readGeodetic(yaml, "start", track.start, 85);
+  readLines(yaml.section("track"), track);
+  readWaves(yaml.section("waves"), track);
+}
 
 NoiseMix Scenario::readNoise(YamlSection& owner, const std::string& key) {
   NoiseMix mix = NoiseMix::read(owner, key);
@@ -101,9 +101,7 @@ Scenario Scenario::read(YamlSection yaml) {
   if (system != "ins_gps_dvl") yaml.fail("system", fmt::format("is '{}' but must be ins_gps_dvl", system));
   yaml.text("name", scenario.name);
   yaml.number("duration", scenario.duration, {1, 1e6});
-  readGeodetic(yaml, "start", scenario.track.start, 85);
-  readTrack(yaml.section("track"), scenario.track);
-  readWaves(yaml.section("waves"), scenario.track);
+  readTrack(yaml, scenario.track);
   readImu(yaml.section("imu"), scenario);
   auto gps = yaml.section("gps");
   readVector<3>(gps, "markov", p.gps_markov, kTiny);

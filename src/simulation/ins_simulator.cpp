@@ -42,60 +42,24 @@ NavigationState wrongStart(const NavigationState& truth, const Parameters& p, st
   return start;
 }
 
-void addImuErrors(std::vector<ImuReading>& readings, const Parameters& p, std::uint64_t seed) {
-  Random random(seed, kImuStream);
-  const Vector<3> gyro_constant = p.gyro_constant * gaussians(random), bias = p.accelerometer_constant * gaussians(random);
-  Markov drift(random);
-  for (std::size_t k = 1; k < readings.size(); ++k) {
-    const double T = secondsBetween(readings[k - 1].stamp, readings[k].stamp);
-    readings[k].rate_body += gyro_constant + p.gyro_markov * drift.step(T, p.gyro_time, random) + p.angle_random_walk / std::sqrt(T) * gaussians(random);
-    readings[k].force_body += bias + p.velocity_random_walk / std::sqrt(T) * gaussians(random);
-  }
-}
-
-/// One of the sensors that aid, with what it remembers.
-class AidingSource {
+/// Reads the truth with a sensor's coloured errors.
+class AidingModel {
  public:
-  AidingSource(const Scenario& scenario, Sensor sensor, std::uint64_t seed)
+  AidingModel(const Scenario& scenario, Sensor sensor, std::uint64_t seed)
       : parameters_(scenario.parameters),
-        readings_(scenario.sensor(sensor)),
+        period_(1 / scenario.sensor(sensor).rate),
         sensor_(sensor),
         random_(seed, kMarkovStream + static_cast<std::uint64_t>(sensor)),
-        markov_(random_) {
-    const auto first = kRowStream + 4 * static_cast<std::uint64_t>(sensor);
-    for (int row = 0; row < rowsOf(sensor); ++row)
-      rows_.emplace_back(readings_.noise, seed, first + static_cast<std::uint64_t>(row), kSpellStream + static_cast<std::uint64_t>(sensor));
-  }
+        markov_(random_) {}
 
-  /// Appends the reading at a time, unless there is none.
-  void read(double time, const TruthSample& truth, std::vector<LabelledAiding>& all) {
-    LabelledAiding labelled;
-    Vector<3> noise = Vector<3>::Zero();
-    bool missing = false, frozen = false;
-    for (std::size_t row = 0; row < rows_.size(); ++row) {
-      const NoiseSample sample = rows_[row].draw(time);
-      const auto axis = static_cast<Eigen::Index>(row);
-      noise(axis) = sample.value;
-      labelled.outlier[row] = sample.outlier;
-      labelled.variance(axis) = sample.variance;
-      missing |= sample.missing;
-      frozen |= sample.frozen;
-    }
-    const double T = 1 / readings_.rate;
-    Aiding& reading = labelled.reading;
+  Aiding read(const TruthSample& truth, const Vector<3>& noise) {
+    const Parameters& p = parameters_;
     switch (sensor_) {
-      case Sensor::Gps:
-        reading = gps(truth, parameters_.gps_markov.cwiseProduct(markov_.step(T, parameters_.gps_time, random_)) + parameters_.gps_white.cwiseProduct(noise));
-        break;
-      case Sensor::Dvl: reading = dvl(truth, parameters_.dvl_markov * markov_.step(T, parameters_.dvl_time, random_) + parameters_.dvl_white * noise); break;
-      case Sensor::Depth: reading = depth(truth, parameters_.depth_white * noise(0)); break;
+      case Sensor::Gps: return gps(truth, p.gps_markov.cwiseProduct(markov_.step(period_, p.gps_time, random_)) + p.gps_white.cwiseProduct(noise));
+      case Sensor::Dvl: return dvl(truth, p.dvl_markov * markov_.step(period_, p.dvl_time, random_) + p.dvl_white * noise);
+      case Sensor::Depth: return depth(truth, p.depth_white * noise(0));
     }
-    if (frozen && last_) reading = *last_;
-    reading.stamp = stampFromSeconds(time);
-    reading.sensor = sensor_;
-    last_ = reading;
-    const auto in = [&](const Outage& outage) { return time >= outage.begin && time <= outage.end; };
-    if (!missing && std::none_of(readings_.outages.begin(), readings_.outages.end(), in)) all.push_back(labelled);
+    return {};
   }
 
  private:
@@ -120,15 +84,56 @@ class AidingSource {
   }
 
   const Parameters& parameters_;
-  const Scenario::Readings& readings_;
+  double period_;  // of the readings [s]
   Sensor sensor_;
   Random random_;
   Markov markov_;
-  std::vector<NoiseSource> rows_;
-  std::optional<Aiding> last_;
 };
 
 }  // namespace
+
+void addImuErrors(std::vector<ImuReading>& readings, const Parameters& p, std::uint64_t seed) {
+  Random random(seed, kImuStream);
+  const Vector<3> gyro_constant = p.gyro_constant * gaussians(random), bias = p.accelerometer_constant * gaussians(random);
+  Markov drift(random);
+  for (std::size_t k = 1; k < readings.size(); ++k) {
+    const double T = secondsBetween(readings[k - 1].stamp, readings[k].stamp);
+    readings[k].rate_body += gyro_constant + p.gyro_markov * drift.step(T, p.gyro_time, random) + p.angle_random_walk / std::sqrt(T) * gaussians(random);
+    readings[k].force_body += bias + p.velocity_random_walk / std::sqrt(T) * gaussians(random);
+  }
+}
+
+AidingSource::AidingSource(const Scenario::Readings& readings, Sensor sensor, std::uint64_t seed) : readings_(readings), sensor_(sensor) {
+  const auto first = kRowStream + 4 * static_cast<std::uint64_t>(sensor);
+  for (int row = 0; row < rowsOf(sensor); ++row)
+    rows_.emplace_back(readings_.noise, seed, first + static_cast<std::uint64_t>(row), kSpellStream + static_cast<std::uint64_t>(sensor));
+}
+
+void AidingSource::read(double time, const std::function<Aiding(const Vector<3>&)>& make, std::vector<LabelledAiding>& all) {
+  LabelledAiding labelled;
+  Vector<3> noise = Vector<3>::Zero();
+  bool missing = false, frozen = false;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const NoiseSample sample = rows_[row].draw(time);
+    const auto axis = static_cast<Eigen::Index>(row);
+    noise(axis) = sample.value;
+    labelled.outlier[row] = sample.outlier;
+    labelled.variance(axis) = sample.variance;
+    missing |= sample.missing;
+    frozen |= sample.frozen;
+  }
+  labelled.reading = make(noise);
+  if (frozen && last_) labelled.reading = *last_;
+  labelled.reading.stamp = stampFromSeconds(time);
+  labelled.reading.sensor = sensor_;
+  last_ = labelled.reading;
+  const auto in = [&](const Outage& outage) { return time >= outage.begin && time <= outage.end; };
+  if (!missing && std::none_of(readings_.outages.begin(), readings_.outages.end(), in)) all.push_back(labelled);
+}
+
+void sortByStamp(std::vector<LabelledAiding>& aiding) {
+  std::stable_sort(aiding.begin(), aiding.end(), [](const LabelledAiding& a, const LabelledAiding& b) { return a.reading.stamp < b.reading.stamp; });
+}
 
 std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, double duration) {
   std::vector<ImuReading> readings{{}};  // the first only says when the time begins
@@ -143,12 +148,16 @@ Recording simulate(const Scenario& scenario, const Trajectory& trajectory, std::
   run.imu = perfectImu(trajectory, scenario.imu_rate, scenario.duration);
   addImuErrors(run.imu, scenario.parameters, seed);
   for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth}) {
-    AidingSource source(scenario, sensor, seed);
+    AidingSource source(scenario.sensor(sensor), sensor, seed);
+    AidingModel model(scenario, sensor, seed);
     const double rate = scenario.sensor(sensor).rate;
-    for (long k = 1; static_cast<double>(k) / rate <= scenario.duration + 1e-9; ++k)
-      source.read(static_cast<double>(k) / rate, trajectory.at(static_cast<double>(k) / rate), run.aiding);
+    for (long k = 1; static_cast<double>(k) / rate <= scenario.duration + 1e-9; ++k) {
+      const TruthSample truth = trajectory.at(static_cast<double>(k) / rate);
+      source.read(
+          static_cast<double>(k) / rate, [&](const Vector<3>& noise) { return model.read(truth, noise); }, run.aiding);
+    }
   }
-  std::stable_sort(run.aiding.begin(), run.aiding.end(), [](const LabelledAiding& a, const LabelledAiding& b) { return a.reading.stamp < b.reading.stamp; });
+  sortByStamp(run.aiding);
   return run;
 }
 
