@@ -26,6 +26,7 @@ struct Audit {
   Verdict verdict = Verdict::Accepted;
   double nis = 0;
   Vector<3> weights = Vector<3>::Ones();
+  double effective_size = 0;  ///< of a filter's particles, where it has some
 };
 
 struct NavigatorOptions {
