@@ -60,8 +60,10 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
       suite.campaigns.push_back(makeUsblSystem(item, folder, fitters));
     else if (kind == "ins_gps_dvl")
       suite.campaigns.push_back(makeInsSystem(item, folder));
+    else if (kind == "sins_dvl")
+      suite.campaigns.push_back(makeSinsSystem(item, folder));
     else
-      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl or ins_gps_dvl", kind));
+      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl, ins_gps_dvl or sins_dvl", kind));
     suite.campaigns.back()->title = name;
     suite.campaigns.back()->kind = kind;
     item.finish();

@@ -7,6 +7,7 @@
 #include "sas_motion/campaign/towfish_campaign.hpp"
 #include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/simulation/ins_scenario.hpp"
+#include "sas_motion/simulation/sins_scenario.hpp"
 
 namespace sas_motion {
 
@@ -15,6 +16,7 @@ std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::stri
 std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign);
 std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string& folder, const usbl::FitterFactory& fitters);
 std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder);
+std::unique_ptr<System> makeSinsSystem(YamlSection& campaign, const std::string& folder);
 
 /// The bound of each group of states, by its name; empty where one is not known at all.
 template <int N>
@@ -33,6 +35,9 @@ Named<double> towfishBound(const towfish::Scenario& scenario, double skip, const
 
 /// The bound of the groups of the fusion of INS, GPS and DVL, see System::bound(); "outage" is the position at the end of each.
 Named<double> insBound(const ins::Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds);
+
+/// The bound of the groups of SINS and DVL, see System::bound(); "drift_percent" is the position at the end over the way.
+Named<double> sinsBound(const sins::Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds);
 
 /// How a law is named and plotted.
 LawInfo lawInfo(const std::string& name, const NoiseMix& measurement, const NoiseMix& process);
