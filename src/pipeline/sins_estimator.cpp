@@ -17,6 +17,7 @@ const std::vector<NamedFilter>& namedFilters() {
                                             {"upf", Kind::Unscented},
                                             {"ss_srupf", Kind::SquareRoot},
                                             {"robust_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, true},
+                                            {"smooth_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, false, true},
                                             {"ss_srupf_optimal", Kind::SquareRoot, Weighting::OptimalProposal},
                                             {"ss_srupf_literal", Kind::SquareRoot, Weighting::Literal},
                                             {"ss_srukf", Kind::SquareRoot, Weighting::Mixture, true},

@@ -11,6 +11,7 @@
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/filters/square_root_filter.hpp"
 #include "sas_motion/pipeline/sins_estimator.hpp"
+#include "sas_motion/pipeline/smooth_track.hpp"
 
 namespace sas_motion::sins {
 
@@ -21,7 +22,7 @@ namespace sas_motion::sins {
 template <int N, class Filter>
 class Navigator final : public ins::Estimator {
  public:
-  Navigator(Filter filter, const Config& config) : filter_(std::move(filter)), config_(config) {}
+  Navigator(Filter filter, const Config& config, bool smooth) : filter_(std::move(filter)), config_(config), smooth_(smooth) {}
 
   void start(const NavigationState& state, Stamp stamp) override {
     ins_.emplace(state, stamp, config_.imu);
@@ -35,6 +36,7 @@ class Navigator final : public ins::Estimator {
     felt_ = {};
     mean_ = belief.mean;
     waiting_.clear();
+    track_.emplace(state, SmoothTrack::Options{});
   }
 
   void process(const ins::Aiding& reading, ins::Output&) override { waiting_.push_back(reading); }
@@ -57,7 +59,10 @@ class Navigator final : public ins::Estimator {
       if (group.stamp == reading.stamp) covariance = solutionCovariance();
     }
     advance(reading, reading.stamp);
-    output.solutions.push_back({ins_->stamp(), View<N>(ins_->state()).corrected(meanNow()), true, true, covariance});
+    if (smooth_)
+      output.solutions.push_back({ins_->stamp(), track_->state(), true, true, std::nullopt});
+    else
+      output.solutions.push_back({ins_->stamp(), fused(), true, true, covariance});
     return verdict;
   }
 
@@ -96,6 +101,7 @@ class Navigator final : public ins::Estimator {
     if (!(dt > 0)) return;
     felt_.add(reading.rate_body, reading.force_body, dt);
     if (felt_.duration() > config_.longest_step - 1e-9) predict();
+    if (smooth_) track_->move(fused(), dt);
   }
 
   void predict() {
@@ -107,6 +113,7 @@ class Navigator final : public ins::Estimator {
     felt_ = {};
   }
 
+  NavigationState fused() const { return View<N>(ins_->state()).corrected(meanNow()); }
   /// Between predictions the mean moves as the INS does.
   Vector<N> meanNow() const { return felt_.duration() > 0 ? Motion<N>(config_.parameters, predicted_from_, felt_)(mean_) : mean_; }
 
@@ -127,6 +134,7 @@ class Navigator final : public ins::Estimator {
     const auto update = filter_.template update<4>(z, h, Matrix<4>(variance.asDiagonal()));
     filter_.replace([&](const Vector<N>& x) { return view.constrained(x); });
     mean_ = filter_.belief().mean;
+    if (smooth_) track_->jump(fused());
     for (const auto& one : group.readings) output.audits.push_back(auditOf(one, update));
   }
 
@@ -156,6 +164,8 @@ class Navigator final : public ins::Estimator {
   Preintegration felt_;             // since then
   Vector<N> mean_ = Vector<N>::Zero();
   std::deque<ins::Aiding> waiting_;
+  bool smooth_;
+  std::optional<SmoothTrack> track_;
 };
 
 constexpr double kCentreWeight = 0.2;  // of the simplex
@@ -168,7 +178,7 @@ std::unique_ptr<ins::Estimator> makeNavigator(const NamedFilter& named, const Co
   if (named.alone) options.particles = 1;
   if (named.robust) options.loss = Loss(LossKind::Cauchy);
   const auto navigator = [&](auto filter) -> std::unique_ptr<ins::Estimator> {
-    return std::make_unique<Navigator<N, decltype(filter)>>(std::move(filter), config);
+    return std::make_unique<Navigator<N, decltype(filter)>>(std::move(filter), config, named.smooth);
   };
   switch (named.kind) {
     case FilterKind::Bootstrap: return navigator(ParticleFilter<N>(options));

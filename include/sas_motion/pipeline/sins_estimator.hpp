@@ -29,6 +29,7 @@ struct NamedFilter {
   Weighting weighting = Weighting::Mixture;
   bool alone = false;   ///< one particle
   bool robust = false;  ///< with a loss against outliers
+  bool smooth = false;  ///< for imaging: without the jumps of readings, see SmoothTrack
 };
 const std::vector<NamedFilter>& namedFilters();
 /// Null for an unknown name.
