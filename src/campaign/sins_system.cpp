@@ -17,7 +17,7 @@ namespace {
 using namespace sins;
 
 constexpr double kScoreEvery = 0.1;                        // [s]
-constexpr double kAlignedHeading = 1 * kRadPerDeg;         // from when on the heading stays within it, an estimator has converged
+constexpr double kAlignedHeading = 2 * kRadPerDeg;         // three standard deviations of the bound: an estimator whose heading stays within has converged
 const towfish::ApertureOptions kAperture{66, 0.015, 0.1};  // 3.3 s at 3 m/s
 
 /// One law, as it is simulated and as the estimators are told.
