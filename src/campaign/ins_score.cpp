@@ -93,7 +93,7 @@ EstimatorReport Score::report(const std::string& name) const {
   for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth, Sensor::Dpc})
     if (const auto& values = nis_[static_cast<std::size_t>(sensor)]; !values.empty() && !nees_.empty())
       report.nis.emplace_back(sensorName(sensor), mean(values));
-  const auto aperture = towfish::apertureError(time_, along_, across_, scenario_.track.speed, {});
+  const auto aperture = towfish::apertureError(time_, along_, across_, scenario_.track.speed, aperture_);
   if (aperture.windows > 0) report.aperture_across = aperture.across;
   report.precision = detection_.precision();
   report.recall = detection_.recall();

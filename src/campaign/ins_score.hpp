@@ -14,7 +14,7 @@ namespace sas_motion::ins {
 /// Scores one solution over a run.
 class Score {
  public:
-  Score(const Scenario& scenario, double skip) : scenario_(scenario), skip_(skip) {}
+  Score(const Scenario& scenario, double skip, const towfish::ApertureOptions& aperture = {}) : scenario_(scenario), skip_(skip), aperture_(aperture) {}
 
   void add(const TruthSample& truth, const Solution& solution);
   void add(const Audit& audit, const LabelledAiding& labelled);
@@ -27,6 +27,7 @@ class Score {
 
   const Scenario& scenario_;
   double skip_;
+  towfish::ApertureOptions aperture_;
   std::map<std::string, std::vector<double>> errors_, nees_;
   std::array<std::vector<double>, kSensors> nis_;
   std::vector<double> time_, along_, across_;

@@ -63,8 +63,10 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
       suite.campaigns.push_back(makeInsSystem(item, folder, make_ins));
     else if (kind == "imaging")
       suite.campaigns.push_back(makeImagingSystem(item, folder, make_ins));
+    else if (kind == "sins_dvl")
+      suite.campaigns.push_back(makeSinsSystem(item, folder));
     else
-      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl, ins_gps_dvl or imaging", kind));
+      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl, ins_gps_dvl, imaging or sins_dvl", kind));
     suite.campaigns.back()->title = name;
     suite.campaigns.back()->kind = kind;
     item.finish();

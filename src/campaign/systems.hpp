@@ -8,6 +8,7 @@
 #include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/pipeline/ins_estimator.hpp"
 #include "sas_motion/simulation/ins_scenario.hpp"
+#include "sas_motion/simulation/sins_scenario.hpp"
 
 namespace sas_motion {
 
@@ -18,6 +19,7 @@ std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string&
 std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder, const ins::EstimatorFactory& make);
 /// Fails where the build has no imaging.
 std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string& folder, const ins::EstimatorFactory& make);
+std::unique_ptr<System> makeSinsSystem(YamlSection& campaign, const std::string& folder);
 
 /// The bound of each group of states, by its name; empty where one is not known at all.
 template <int N>
@@ -36,6 +38,9 @@ Named<double> towfishBound(const towfish::Scenario& scenario, double skip, const
 
 /// The bound of the groups of the fusion of INS, GPS and DVL, see System::bound(); "outage" is the position at the end of each.
 Named<double> insBound(const ins::Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds);
+
+/// The bound of the groups of SINS and DVL, see System::bound(); "drift_percent" is the position at the end over the way.
+Named<double> sinsBound(const sins::Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds);
 
 /// How a law is named and plotted.
 LawInfo lawInfo(const std::string& name, const NoiseMix& measurement, const NoiseMix& process);

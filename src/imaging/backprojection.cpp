@@ -11,7 +11,7 @@
 #include "imaging/backprojection_kernel.hpp"
 #include "imaging/upsampling.hpp"
 #include "sas_motion/imaging/interpolator.hpp"
-#include "sas_motion/imaging/threads.hpp"
+#include "sas_motion/parallel/threads.hpp"
 
 namespace sas_motion::imaging {
 namespace {

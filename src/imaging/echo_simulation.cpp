@@ -8,7 +8,7 @@
 
 #include "sas_motion/imaging/chirp.hpp"
 #include "sas_motion/imaging/interpolator.hpp"
-#include "sas_motion/imaging/threads.hpp"
+#include "sas_motion/parallel/threads.hpp"
 #include "sas_motion/math/random.hpp"
 
 namespace sas_motion::imaging {

@@ -8,7 +8,7 @@
 
 #include "imaging/polar_image.hpp"
 #include "sas_motion/imaging/interpolator.hpp"
-#include "sas_motion/imaging/threads.hpp"
+#include "sas_motion/parallel/threads.hpp"
 
 namespace sas_motion::imaging {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "imaging/coarse_displacement.hpp"
 #include "imaging/speckle_model.hpp"
-#include "sas_motion/imaging/threads.hpp"
+#include "sas_motion/parallel/threads.hpp"
 
 namespace sas_motion::imaging {
 namespace {

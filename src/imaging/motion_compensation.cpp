@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "sas_motion/imaging/interpolator.hpp"
-#include "sas_motion/imaging/threads.hpp"
+#include "sas_motion/parallel/threads.hpp"
 
 namespace sas_motion::imaging {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sas_motion/imaging/chirp.hpp"
-#include "sas_motion/imaging/threads.hpp"
+#include "sas_motion/parallel/threads.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace sas_motion::imaging {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
 
 namespace sas_motion::ins {
@@ -98,7 +99,7 @@ ErrorMatrix ErrorModel::dynamics(const Motion& motion) const {
   // Dead reckoning turns the reading by the computed attitude: C' v = C v + v x phi.
   const auto scale = unit_.segment<3>(kPosition).asDiagonal();
   F.block<3, 3>(kDvlPosition, kDvlVelocity) = scale * C;
-  F.block<3, 3>(kDvlPosition, kAttitude) = scale * crossMatrix(motion.state.velocity_nav);
+  F.block<3, 3>(kDvlPosition, kAttitude) = scale * skew(motion.state.velocity_nav);
   return unit_.cwiseInverse().asDiagonal() * F * unit_.asDiagonal();
 }
 
@@ -139,7 +140,7 @@ LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const 
   difference.x() = wrapAngle(difference.x());
   z.H.setZero();
   z.H.block<3, 3>(0, kPosition).setIdentity();
-  z.H.block<3, 3>(0, kAttitude) = kMilliradian * crossMatrix(lever);
+  z.H.block<3, 3>(0, kAttitude) = kMilliradian * skew(lever);
   z.H.block<3, 3>(0, kGpsPosition) = -Matrix<3>::Identity();
   z.R = parameters_.gps_white.cwiseAbs2().asDiagonal();
   z.innovation = difference.cwiseProduct(metresPerPosition()) + lever - z.H * mean;
@@ -156,7 +157,7 @@ LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const 
   const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
   z.H.setZero();
   z.H.block<3, 3>(0, kVelocity) = C_body_nav;
-  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * crossMatrix(ins.velocity_nav);
+  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * skew(ins.velocity_nav);
   z.H.block<3, 3>(0, kDvlVelocity) = -Matrix<3>::Identity();
   z.R = parameters_.dvl_white * parameters_.dvl_white * Matrix<3>::Identity();
   z.innovation = C_body_nav * ins.velocity_nav - velocityOfIns(ins, rate_body, velocity_body) - z.H * mean;
@@ -168,7 +169,7 @@ LinearMeasurement<kStates, 1> ErrorModel::depth(const NavigationState& ins, doub
   const Vector<3> lever = ins.q_nav_body * parameters_.depth_lever_body;
   z.H.setZero();
   z.H(0, kPosition + 2) = 1;
-  z.H.block<1, 3>(0, kAttitude) = kMilliradian * crossMatrix(lever).row(2);
+  z.H.block<1, 3>(0, kAttitude) = kMilliradian * skew(lever).row(2);
   z.R(0, 0) = parameters_.depth_white * parameters_.depth_white;
   z.innovation = Vector<1>(ins.height + lever.z() - height) - z.H * mean;
   return z;
@@ -181,15 +182,13 @@ LinearMeasurement<kStates, 2> ErrorModel::dpc(const NavigationState& ins, const 
   axes << Vector<3>::UnitY().transpose(), array.sight_body.transpose();
   z.H.setZero();
   z.H.block<2, 3>(0, kVelocity) = axes * C_body_nav;
-  z.H.block<2, 3>(0, kAttitude) = -kMilliradian * axes * C_body_nav * crossMatrix(ins.velocity_nav);
+  z.H.block<2, 3>(0, kAttitude) = -kMilliradian * axes * C_body_nav * skew(ins.velocity_nav);
   z.R = array.variance.asDiagonal();
   z.innovation = axes * (C_body_nav * ins.velocity_nav + leverVelocity(ins, rate_body, parameters_.dpc_lever_body)) - array.velocity - z.H * mean;
   return z;
 }
 
-Matrix<3> crossMatrix(const Vector<3>& v) { return (Matrix<3>() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished(); }
-
-Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment) { return (1 + scale) * (Matrix<3>::Identity() - crossMatrix(misalignment)); }
+Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment) { return (1 + scale) * (Matrix<3>::Identity() - skew(misalignment)); }
 
 NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit) {
   NavigationState state = ins;

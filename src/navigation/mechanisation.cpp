@@ -8,17 +8,11 @@
 #include <stdexcept>
 
 #include "sas_motion/math/angles.hpp"
+#include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
 
 namespace sas_motion {
 namespace {
-
-/// exp of half a rotation vector [rad].
-Eigen::Quaterniond quaternionOf(const Vector<3>& rotation) {
-  const double angle = rotation.norm(), half = 0.5 * angle;
-  const double sinc = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(half) / angle;
-  return {std::cos(half), sinc * rotation.x(), sinc * rotation.y(), sinc * rotation.z()};
-}
 
 double checked(const char* name, double value) {
   if (!(value > 0)) throw std::invalid_argument(fmt::format("{} is {} but must be positive", name, value));

@@ -46,8 +46,8 @@ Solution movedBy(const Solution& solution, const Vector<3>& lever_body) {
   moved.state.velocity_nav += swing;
   if (!solution.covariance) return moved;
   Matrix<9> J = Matrix<9>::Identity();  // C' l = C l + (C l) x phi
-  J.block<3, 3>(kVelocity, kAttitude) = crossMatrix(swing);
-  J.block<3, 3>(kPosition, kAttitude) = crossMatrix(lever);
+  J.block<3, 3>(kVelocity, kAttitude) = skew(swing);
+  J.block<3, 3>(kPosition, kAttitude) = skew(lever);
   moved.covariance = J * *solution.covariance * J.transpose();
   return moved;
 }

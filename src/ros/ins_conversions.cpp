@@ -132,7 +132,7 @@ nav_msgs::Odometry odometryOf(const Solution& solution, const LocalFrame& frame,
     pose = J * *solution.covariance * J.transpose();
     Matrix<3, 9> V = Matrix<3, 9>::Zero();  // of the velocity in the base: C'^T v' = C^T (v - v x phi)
     V.block<3, 3>(0, kVelocity) = C_base_nav;
-    V.block<3, 3>(0, kAttitude) = -C_base_nav * crossMatrix(state.velocity_nav);
+    V.block<3, 3>(0, kAttitude) = -C_base_nav * skew(state.velocity_nav);
     twist.topLeftCorner<3, 3>() = V * *solution.covariance * V.transpose();
   }
   if (!solution.lying) pose.diagonal().tail<3>().setConstant(kNotEstimated);

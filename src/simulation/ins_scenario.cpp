@@ -23,11 +23,12 @@ void readWave(YamlSection yaml, Wave& wave, bool angle) {
   yaml.finish();
 }
 
-void readTrack(YamlSection yaml, Track& track) {
+void readLines(YamlSection yaml, Track& track) {
   yaml.number("speed", track.speed, {0.01, 50});
   yaml.angle("heading_deg", track.heading, {-360, 360});
   yaml.number("line_length", track.line_length, {1, 1e6});
   yaml.angle("turn_rate_deg", track.turn_rate, {0.01, 90});
+  yaml.boolean("along_bow", track.along_bow);
   yaml.finish();
 }
 
@@ -63,6 +64,12 @@ void Scenario::readDpc(YamlSection yaml) {
   readSensor(yaml, sensor(Sensor::Dpc), parameters.dpc_lever_body, 0);
 }
 
+void readTrack(YamlSection& yaml, Track& track) {
+  readGeodetic(yaml, "start", track.start, 85);
+  readLines(yaml.section("track"), track);
+  readWaves(yaml.section("waves"), track);
+}
+
 NoiseMix Scenario::readNoise(YamlSection& owner, const std::string& key) {
   NoiseMix mix = NoiseMix::read(owner, key);
   for (const auto& law : mix.laws)
@@ -92,9 +99,7 @@ Scenario Scenario::read(YamlSection yaml) {
   readSystem(yaml, "ins_gps_dvl");
   yaml.text("name", scenario.name);
   yaml.number("duration", scenario.duration, {1, 1e6});
-  readGeodetic(yaml, "start", scenario.track.start, 85);
-  readTrack(yaml.section("track"), scenario.track);
-  readWaves(yaml.section("waves"), scenario.track);
+  readTrack(yaml, scenario.track);
   auto imu = yaml.section("imu");
   readImuErrors(imu, p, scenario.imu_rate);
   imu.finish();

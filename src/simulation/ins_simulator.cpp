@@ -42,17 +42,6 @@ NavigationState wrongStart(const NavigationState& truth, const Parameters& p, st
   return start;
 }
 
-void addImuErrors(std::vector<ImuReading>& readings, const Parameters& p, std::uint64_t seed) {
-  Random random(seed, kImuStream);
-  const Vector<3> gyro_constant = p.gyro_constant * gaussians(random), bias = p.accelerometer_constant * gaussians(random);
-  Markov drift(random);
-  for (std::size_t k = 1; k < readings.size(); ++k) {
-    const double T = secondsBetween(readings[k - 1].stamp, readings[k].stamp);
-    readings[k].rate_body += gyro_constant + p.gyro_markov * drift.step(T, p.gyro_time, random) + p.angle_random_walk / std::sqrt(T) * gaussians(random);
-    readings[k].force_body += bias + p.velocity_random_walk / std::sqrt(T) * gaussians(random);
-  }
-}
-
 /// How this run's DVL is scaled and mounted.
 Matrix<3> drawnDistortion(const Parameters& p, std::uint64_t seed) {
   Random random(seed, kDvlMountingStream);
@@ -60,53 +49,28 @@ Matrix<3> drawnDistortion(const Parameters& p, std::uint64_t seed) {
   return dvlDistortion(scale, p.dvl_misalignment * gaussians(random));
 }
 
-/// One of the sensors that aid, with what it remembers.
-class AidingSource {
+/// Reads the truth with a sensor's coloured errors.
+class AidingModel {
  public:
-  AidingSource(const Scenario& scenario, const Trajectory& trajectory, Sensor sensor, std::uint64_t seed)
+  AidingModel(const Scenario& scenario, const Trajectory& trajectory, Sensor sensor, std::uint64_t seed)
       : parameters_(scenario.parameters),
         dpc_(scenario.dpc),
         trajectory_(trajectory),
-        readings_(scenario.sensor(sensor)),
+        period_(1 / scenario.sensor(sensor).rate),
         sensor_(sensor),
         distortion_(drawnDistortion(scenario.parameters, seed)),
         random_(seed, kMarkovStream + static_cast<std::uint64_t>(sensor)),
-        markov_(random_) {
-    const auto first = kRowStream + 4 * static_cast<std::uint64_t>(sensor);
-    for (int row = 0; row < rowsOf(sensor); ++row)
-      rows_.emplace_back(readings_.noise, seed, first + static_cast<std::uint64_t>(row), kSpellStream + static_cast<std::uint64_t>(sensor));
-  }
+        markov_(random_) {}
 
-  /// Appends the reading at a time, unless there is none.
-  void read(double time, const TruthSample& truth, std::vector<LabelledAiding>& all) {
-    LabelledAiding labelled;
-    Vector<3> noise = Vector<3>::Zero();
-    bool missing = false, frozen = false;
-    for (std::size_t row = 0; row < rows_.size(); ++row) {
-      const NoiseSample sample = rows_[row].draw(time);
-      const auto axis = static_cast<Eigen::Index>(row);
-      noise(axis) = sample.value;
-      labelled.outlier[row] = sample.outlier;
-      labelled.variance(axis) = sample.variance;
-      missing |= sample.missing;
-      frozen |= sample.frozen;
-    }
-    const double T = 1 / readings_.rate;
-    Aiding& reading = labelled.reading;
+  Aiding read(const TruthSample& truth, double time, const Vector<3>& noise) {
+    const Parameters& p = parameters_;
     switch (sensor_) {
-      case Sensor::Gps:
-        reading = gps(truth, parameters_.gps_markov.cwiseProduct(markov_.step(T, parameters_.gps_time, random_)) + parameters_.gps_white.cwiseProduct(noise));
-        break;
-      case Sensor::Dvl: reading = dvl(truth, parameters_.dvl_markov * markov_.step(T, parameters_.dvl_time, random_) + parameters_.dvl_white * noise); break;
-      case Sensor::Depth: reading = depth(truth, parameters_.depth_white * noise(0)); break;
-      case Sensor::Dpc: reading = dpc(truth, time, {dpc_.white_along * noise(0), dpc_.white_sight * noise(1)}); break;
+      case Sensor::Gps: return gps(truth, p.gps_markov.cwiseProduct(markov_.step(period_, p.gps_time, random_)) + p.gps_white.cwiseProduct(noise));
+      case Sensor::Dvl: return dvl(truth, p.dvl_markov * markov_.step(period_, p.dvl_time, random_) + p.dvl_white * noise);
+      case Sensor::Depth: return depth(truth, p.depth_white * noise(0));
+      case Sensor::Dpc: return dpc(truth, time, {dpc_.white_along * noise(0), dpc_.white_sight * noise(1)});
     }
-    if (frozen && last_) reading = *last_;
-    reading.stamp = stampFromSeconds(time);
-    reading.sensor = sensor_;
-    last_ = reading;
-    const auto in = [&](const Outage& outage) { return time >= outage.begin && time <= outage.end; };
-    if (!missing && std::none_of(readings_.outages.begin(), readings_.outages.end(), in)) all.push_back(labelled);
+    return {};
   }
 
  private:
@@ -125,7 +89,7 @@ class AidingSource {
   }
   /// From a ping half an interval earlier to one half an interval later; on the axes between.
   Aiding dpc(const TruthSample& truth, double time, const Vector<2>& error) const {
-    const double half = 0.5 / readings_.rate;
+    const double half = 0.5 * period_;
     const auto array = [&](double t) {
       NavigationState state = trajectory_.at(t).state;
       displace(state, state.q_nav_body * parameters_.dpc_lever_body);
@@ -134,7 +98,7 @@ class AidingSource {
     const Vector<3> moved_body = truth.state.q_nav_body.conjugate() * displacement(array(time - half), array(time + half));
     Aiding reading;
     reading.array.sight_body = dpc_.sightBody();
-    reading.array.velocity = readings_.rate * Vector<2>(moved_body.y(), moved_body.dot(reading.array.sight_body)) + error;
+    reading.array.velocity = Vector<2>(moved_body.y(), moved_body.dot(reading.array.sight_body)) / period_ + error;
     reading.array.variance << dpc_.white_along * dpc_.white_along, dpc_.white_sight * dpc_.white_sight;
     return reading;
   }
@@ -148,16 +112,57 @@ class AidingSource {
   const Parameters& parameters_;
   const Scenario::Dpc& dpc_;
   const Trajectory& trajectory_;
-  const Scenario::Readings& readings_;
+  double period_;  // of the readings [s]
   Sensor sensor_;
   Matrix<3> distortion_;  // of the DVL
   Random random_;
   Markov markov_;
-  std::vector<NoiseSource> rows_;
-  std::optional<Aiding> last_;
 };
 
 }  // namespace
+
+void addImuErrors(std::vector<ImuReading>& readings, const Parameters& p, std::uint64_t seed) {
+  Random random(seed, kImuStream);
+  const Vector<3> gyro_constant = p.gyro_constant * gaussians(random), bias = p.accelerometer_constant * gaussians(random);
+  Markov drift(random);
+  for (std::size_t k = 1; k < readings.size(); ++k) {
+    const double T = secondsBetween(readings[k - 1].stamp, readings[k].stamp);
+    readings[k].rate_body += gyro_constant + p.gyro_markov * drift.step(T, p.gyro_time, random) + p.angle_random_walk / std::sqrt(T) * gaussians(random);
+    readings[k].force_body += bias + p.velocity_random_walk / std::sqrt(T) * gaussians(random);
+  }
+}
+
+AidingSource::AidingSource(const Scenario::Readings& readings, Sensor sensor, std::uint64_t seed) : readings_(readings), sensor_(sensor) {
+  const auto first = kRowStream + 4 * static_cast<std::uint64_t>(sensor);
+  for (int row = 0; row < rowsOf(sensor); ++row)
+    rows_.emplace_back(readings_.noise, seed, first + static_cast<std::uint64_t>(row), kSpellStream + static_cast<std::uint64_t>(sensor));
+}
+
+void AidingSource::read(double time, const std::function<Aiding(const Vector<3>&)>& make, std::vector<LabelledAiding>& all) {
+  LabelledAiding labelled;
+  Vector<3> noise = Vector<3>::Zero();
+  bool missing = false, frozen = false;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const NoiseSample sample = rows_[row].draw(time);
+    const auto axis = static_cast<Eigen::Index>(row);
+    noise(axis) = sample.value;
+    labelled.outlier[row] = sample.outlier;
+    labelled.variance(axis) = sample.variance;
+    missing |= sample.missing;
+    frozen |= sample.frozen;
+  }
+  labelled.reading = make(noise);
+  if (frozen && last_) labelled.reading = *last_;
+  labelled.reading.stamp = stampFromSeconds(time);
+  labelled.reading.sensor = sensor_;
+  last_ = labelled.reading;
+  const auto in = [&](const Outage& outage) { return time >= outage.begin && time <= outage.end; };
+  if (!missing && std::none_of(readings_.outages.begin(), readings_.outages.end(), in)) all.push_back(labelled);
+}
+
+void sortByStamp(std::vector<LabelledAiding>& aiding) {
+  std::stable_sort(aiding.begin(), aiding.end(), [](const LabelledAiding& a, const LabelledAiding& b) { return a.reading.stamp < b.reading.stamp; });
+}
 
 std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, double duration) {
   std::vector<ImuReading> readings{{}};  // the first only says when the time begins
@@ -174,14 +179,16 @@ Recording simulate(const Scenario& scenario, const Trajectory& trajectory, std::
   for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth, Sensor::Dpc}) {
     const double rate = scenario.sensor(sensor).rate;
     if (!(rate > 0)) continue;
-    AidingSource source(scenario, trajectory, sensor, seed);
+    AidingSource source(scenario.sensor(sensor), sensor, seed);
+    AidingModel model(scenario, trajectory, sensor, seed);
     const double early = sensor == Sensor::Dpc ? 0.5 / rate : 0;  // the middle between two pings
     for (long k = 1; static_cast<double>(k) / rate <= scenario.duration + 1e-9; ++k) {
       const double time = static_cast<double>(k) / rate - early;
-      source.read(time, trajectory.at(time), run.aiding);
+      source.read(
+          time, [&](const Vector<3>& noise) { return model.read(trajectory.at(time), time, noise); }, run.aiding);
     }
   }
-  std::stable_sort(run.aiding.begin(), run.aiding.end(), [](const LabelledAiding& a, const LabelledAiding& b) { return a.reading.stamp < b.reading.stamp; });
+  sortByStamp(run.aiding);
   return run;
 }
 

@@ -56,7 +56,7 @@ Trajectory::Trajectory(const Track& track, double duration)
       line_time_(checked("line_length", track.line_length) / checked("speed", track.speed)),
       turn_time_(15.0 / 8 * kPi / checked("turn_rate", track.turn_rate)) {
   for (const Wave* wave : {&track.pitch, &track.roll, &track.yaw, &track.heave, &track.sway}) checked("period", wave->period);
-  nodes_.push_back(Vector<2>::Zero());
+  nodes_.push_back(Vector<3>::Zero());
   for (double begin = 0; begin < duration + 1; begin = kNode * static_cast<double>(nodes_.size() - 1))
     nodes_.push_back(nodes_.back() + way(begin, begin + kNode));
 }
@@ -70,24 +70,30 @@ Trajectory::Course Trajectory::course(double time) const {
   return {from + turn * s * s * s * (10 - 15 * s + 6 * s * s), turn * 30 * s * s * (1 - s) * (1 - s) / turn_time_};
 }
 
-Vector<2> Trajectory::way(double begin, double end) const {
-  const auto direction = [&](double time) {
-    const double angle = course(time).angle;
-    return Vector<2>(std::sin(angle), std::cos(angle));
-  };
-  return track_.speed * (end - begin) * meanOver(begin, end, direction);
+Trajectory::Direction Trajectory::direction(double time) const {
+  const auto [angle, rate] = course(time);
+  const Vector<3> none = Vector<3>::Zero(), yaw = track_.along_bow ? swing(track_.yaw, time) : none,
+                  pitch = track_.along_bow ? swing(track_.pitch, time) : none;
+  const double s = std::sin(angle + yaw(0)), c = std::cos(angle + yaw(0)), sp = std::sin(pitch(0)), cp = std::cos(pitch(0));
+  return {{cp * s, cp * c, sp}, (rate + yaw(1)) * Vector<3>(cp * c, -cp * s, 0) + pitch(1) * Vector<3>(-sp * s, -sp * c, cp)};
+}
+
+Vector<3> Trajectory::way(double begin, double end) const {
+  return track_.speed * (end - begin) * meanOver(begin, end, [&](double time) { return direction(time).unit; });
 }
 
 TruthSample Trajectory::at(double time) const {
   const auto node = std::min(static_cast<std::size_t>(std::max(0.0, time) / kNode), nodes_.size() - 1);
   const auto [angle, rate] = course(time);
-  const double s = std::sin(angle), c = std::cos(angle);
+  const auto [unit, unit_rate] = direction(time);
   const Vector<3> sway = swing(track_.sway, time), heave = swing(track_.heave, time), yaw = swing(track_.yaw, time);
   const Vector<2> across(std::cos(track_.heading), -std::sin(track_.heading));
+  const Vector<3> waved(nodes_[node] + way(kNode * static_cast<double>(node), time));
+  const Vector<3> up(waved.z() + heave(0), track_.speed * unit.z() + heave(1), track_.speed * unit_rate.z() + heave(2));
   // East and north, with their derivatives, as if the Earth were flat at the start.
-  const Vector<2> flat = nodes_[node] + way(kNode * static_cast<double>(node), time) + sway(0) * across;
-  const Vector<2> flat_rate = track_.speed * Vector<2>(s, c) + sway(1) * across;
-  const Vector<2> flat_second = track_.speed * rate * Vector<2>(c, -s) + sway(2) * across;
+  const Vector<2> flat = waved.head<2>() + sway(0) * across;
+  const Vector<2> flat_rate = track_.speed * unit.head<2>() + sway(1) * across;
+  const Vector<2> flat_second = track_.speed * unit_rate.head<2>() + sway(2) * across;
 
   const double L0 = track_.start.latitude_deg * kRadPerDeg;
   const auto R0 = earth::radii(L0, track_.start.altitude);
@@ -98,13 +104,13 @@ TruthSample Trajectory::at(double time) const {
   NavigationState& state = truth.state;
   state.latitude = L0 + per_north * flat.y();
   state.longitude = track_.start.longitude_deg * kRadPerDeg + per_east * flat.x();
-  state.height = track_.start.altitude + heave(0);
+  state.height = track_.start.altitude + up(0);
 
   const auto R = earth::radii(state.latitude, state.height), R_L = earth::radiiByLatitude(state.latitude);
   const double cL = std::cos(state.latitude), sL = std::sin(state.latitude);
   const double L1 = per_north * flat_rate.y(), L2 = per_north * flat_second.y(), lon1 = per_east * flat_rate.x(), lon2 = per_east * flat_second.x();
-  state.velocity_nav << R.N * cL * lon1, R.M * L1, heave(1);
-  truth.acceleration_nav << (R_L.N * L1 + heave(1)) * cL * lon1 - R.N * sL * L1 * lon1 + R.N * cL * lon2, (R_L.M * L1 + heave(1)) * L1 + R.M * L2, heave(2);
+  state.velocity_nav << R.N * cL * lon1, R.M * L1, up(1);
+  truth.acceleration_nav << (R_L.N * L1 + up(1)) * cL * lon1 - R.N * sL * L1 * lon1 + R.N * cL * lon2, (R_L.M * L1 + up(1)) * L1 + R.M * L2, up(2);
 
   const Vector<3> pitch = swing(track_.pitch, time), roll = swing(track_.roll, time);
   const double heading_rate = rate + yaw(1), sr = std::sin(roll(0)), cr = std::cos(roll(0)), sp = std::sin(pitch(0)), cp = std::cos(pitch(0));

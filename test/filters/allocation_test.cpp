@@ -10,9 +10,12 @@
 #include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
+#include "sas_motion/filters/particles/particle_filter.hpp"
+#include "sas_motion/filters/particles/unscented_particle_filter.hpp"
 #include "sas_motion/filters/reacquiring_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
+#include "sas_motion/filters/square_root_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
 #include "sas_motion/models/towfish.hpp"
 #include "sas_motion/navigation/mechanisation.hpp"
@@ -103,6 +106,22 @@ void expectNoAllocation(const std::string& name, usbl::Mode mode) {
   EXPECT_TRUE(gaussian(belief).mean.allFinite());
 }
 
+template <class Filter>
+void expectNoAllocationOfParticles(const char* name, Filter filter) {
+  ASSERT_TRUE(filter.start({}));
+  const auto f = [](const Vector<4>& x) -> Vector<4> { return x + Vector<4>(x(2), x(3), 0, 0); };
+  const auto h = [](const Vector<4>& x) -> Vector<1> { return Vector<1>(std::atan2(x(1) - 9, x(0))); };
+  bool resampled = false;
+  const long before = allocations;
+  for (int k = 0; k < 20; ++k) {
+    filter.predict(f, Matrix<4>(0.3 * Matrix<4>::Identity()));
+    resampled |= filter.update(Vector<1>(-1.5 + 0.1 * (k % 7)), h, Matrix<1>(1e-4)).resampled;
+  }
+  EXPECT_EQ(allocations - before, 0) << name;
+  EXPECT_TRUE(resampled) << name;
+  EXPECT_TRUE(filter.belief().mean.allFinite());
+}
+
 class Allocation : public ::testing::Test {
   void SetUp() override {
 #ifdef SAS_MOTION_CANNOT_COUNT
@@ -117,6 +136,21 @@ TEST_F(Allocation, MechanisationUsesNoHeap) {
   for (int k = 1; k <= 100; ++k) ins.step({k * kNanosecondsPerSecond / 100, Vector<3>(0.01, 0, 0.02), Vector<3>(0, 0, 9.8)});
   EXPECT_EQ(allocations - before, 0);
   EXPECT_EQ(ins.stamp(), kNanosecondsPerSecond);
+}
+
+TEST_F(Allocation, ParticlesUseNoHeap) {
+  UnscentedParticleOptions options;
+  options.particles = 100;
+  options.loss = Loss(LossKind::Tukey);
+  options.threads = 2;
+  expectNoAllocationOfParticles("pf", ParticleFilter<4>(options));
+  const SquareRootFilter root_form(simplexPoints<4>(0.2));
+  const SigmaPointFilter covariance_form(unscentedPoints<4>({1, 0, 1}));
+  for (const auto weighting : {Weighting::Mixture, Weighting::OptimalProposal, Weighting::Literal}) {
+    options.weighting = weighting;
+    expectNoAllocationOfParticles("ss_srupf", UnscentedParticleFilter<4, SimplexFilter<4>>(root_form, options));
+    expectNoAllocationOfParticles("upf", UnscentedParticleFilter<4, SigmaPointFilter<4, 9>>(covariance_form, options));
+  }
 }
 
 TEST_F(Allocation, PredictAndUpdateUseNoHeap) {

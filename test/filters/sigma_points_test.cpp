@@ -60,6 +60,34 @@ TEST(SigmaPoints, WithAlphaOneAndKappaThreeMinusNTheFourthMomentOfAnAxisIsThree)
   EXPECT_NEAR(moment(unscentedPoints<6>({1, 2, -3}), Vector<6>(4 * Vector<6>::Unit(2))), 3, 1e-12);
 }
 
+template <int N>
+void expectStandardNormalToTheSecondDegree() {
+  for (const double W0 : {0.0, 0.3, 0.9}) {
+    const auto points = simplexPoints<N>(W0);
+    EXPECT_NEAR(points.mean_weights.sum(), 1, 1e-13);
+    EXPECT_LT((points.offsets * points.mean_weights).norm(), 1e-13) << N;
+    EXPECT_LT((points.offsets * points.covariance_weights.asDiagonal() * points.offsets.transpose() - Matrix<N>::Identity()).norm(), 1e-13) << N;
+    EXPECT_EQ(points.offsets.col(0).norm(), 0);
+    for (int i = 1; i < N + 2; ++i) EXPECT_NEAR(points.offsets.col(i).norm(), std::sqrt(N / (1 - W0)), 1e-12) << "a corner of the sphere";
+  }
+}
+
+TEST(SigmaPoints, OfTheSphericalSimplexHaveTheMomentsOfAStandardNormalToTheSecondDegree) {
+  expectStandardNormalToTheSecondDegree<1>();
+  expectStandardNormalToTheSecondDegree<2>();
+  expectStandardNormalToTheSecondDegree<3>();
+  expectStandardNormalToTheSecondDegree<16>();
+}
+
+TEST(SigmaPoints, OfTheSphericalSimplexAreTheTriangleInThePlane) {
+  Matrix<2, 4> triangle;
+  triangle << 0, -std::sqrt(1.5), std::sqrt(1.5), 0,  //
+      0, -std::sqrt(0.5), -std::sqrt(0.5), std::sqrt(2.0);
+  EXPECT_LT((simplexPoints<2>(0).offsets - triangle).norm(), 1e-15);
+  EXPECT_THROW(simplexPoints<2>(1), std::invalid_argument);
+  EXPECT_THROW(simplexPoints<2>(-0.1), std::invalid_argument);
+}
+
 TEST(SigmaPoints, RefuseASpreadThatIsNone) {
   EXPECT_THROW(unscentedPoints<6>({0, 2, 0}), std::invalid_argument);
   EXPECT_THROW(unscentedPoints<6>({1, 2, -6}), std::invalid_argument);

@@ -23,6 +23,13 @@ void readVector(YamlSection& yaml, const std::string& key, Vector<N>& value, dou
   std::copy(numbers.begin(), numbers.end(), value.data());
 }
 
+/// A number that the file has in another unit: value = number * unit. The range is the number's. Throws ConfigError.
+inline void readScaled(YamlSection& yaml, const std::string& key, double& value, double unit, Range range) {
+  double number = value / unit;
+  yaml.number(key, number, range);
+  value = number * unit;
+}
+
 /// A key that holds latitude, longitude [deg] and altitude [m], the latitude within `bound` of the equator. Throws ConfigError.
 inline void readGeodetic(YamlSection& yaml, const std::string& key, Geodetic& value, int bound = 90) {
   Vector<3> numbers(value.latitude_deg, value.longitude_deg, value.altitude);

@@ -69,7 +69,8 @@ class AdaptiveCubatureFilter {
   }
 
   /// The belief after reading z = h(x) + v with v of the stated variances, or some multiple of them. Rows where `present` is 0 are left out,
-  /// and where it is 1 they count; z must be finite and the variance positive in all. The report's weights are the rows', its S and NIS with the noise as estimated.
+  /// and where it is 1 they count; z must be finite and the variance positive in all. The report's weights are the rows', its S and NIS with the noise as
+  /// estimated.
   template <class Function, class Difference>
   Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Vector<M>& variance, const Vector<M>& present, const Function& h,
                            const Difference& difference) const {
@@ -127,8 +128,9 @@ class AdaptiveCubatureFilter {
   void reweigh(Iterate& iterate, const Vector<M>& variance, const Vector<M>& present) const {
     iterate.R = options_.adaptive ? Vector<M>(variance.cwiseProduct(iterate.noise.factor(options_.trend))) : variance;
     for (int row = 0; row < M; ++row)
-      iterate.weights(row) =
-          options_.loss && present(row) > 0 ? std::max(kLeastWeight, options_.peak * options_.loss->weight(iterate.residual(row) / std::sqrt(iterate.R(row)))) : 1;
+      iterate.weights(row) = options_.loss && present(row) > 0
+                                 ? std::max(kLeastWeight, options_.peak * options_.loss->weight(iterate.residual(row) / std::sqrt(iterate.R(row))))
+                                 : 1;
   }
 
   /// The noise estimate, from the posterior's points. [Sarkka2013, algorithm 2; with weights]

@@ -5,17 +5,9 @@
 #include <optional>
 
 #include "sas_motion/filters/conditioning.hpp"
-#include "sas_motion/filters/sigma_points.hpp"
+#include "sas_motion/filters/sigma_image.hpp"
 
 namespace sas_motion {
-
-/// y - x where nothing wraps.
-struct PlainDifference {
-  template <class V>
-  V operator()(const V& y, const V& x) const {
-    return y - x;
-  }
-};
 
 /// A Gaussian filter that needs no Jacobians: it sends points through f and h and fits a Gaussian to where they land. With cubature points
 /// this is the CKF [Arasaratnam2009], with unscented points the UKF [Julier2004].
@@ -34,27 +26,22 @@ class SigmaPointFilter {
   std::optional<Belief> predict(const Belief& belief, const Function& f, const Matrix<N>& Q, const Difference& difference = {}) const {
     const auto L = choleskyLower<N>(belief.covariance);
     if (!L) return std::nullopt;
-    const auto image = transform<N>(belief.mean, *L * points_.offsets, f, difference);
+    const auto image = imageOf<N>(points_, belief.mean, Matrix<N, Count>(*L * points_.offsets), f, difference);
     Belief prior{image.mean, Q + secondMoment<N, N>(image.deviations, image.deviations)};
     symmetrize(prior.covariance);
     if (!prior.mean.allFinite() || !choleskyLower<N>(prior.covariance)) return std::nullopt;
     return prior;
   }
 
-  /// Where h sends the prior's points.
   template <int M>
-  struct Image {
-    Matrix<N, Count> dX;           ///< the points less the prior's mean
-    Vector<M> mean;                ///< of h
-    Matrix<M, Count> deviations;   ///< of h at each point from it
-  };
+  using Image = SigmaImage<N, M, Count>;
 
   /// Nothing where the prior's covariance is not positive definite.
   template <int M, class Function, class Difference = PlainDifference>
   std::optional<Image<M>> project(const Belief& prior, const Function& h, const Difference& difference = {}) const {
     const auto L = choleskyLower<N>(prior.covariance);
     if (!L) return std::nullopt;
-    return transform<M>(prior.mean, *L * points_.offsets, h, difference);
+    return imageOf<M>(points_, prior.mean, Matrix<N, Count>(*L * points_.offsets), h, difference);
   }
 
   /// Fuses an innovation, z less the image's mean, with noise covariance R. The report holds the innovation, its S and NIS.
@@ -98,19 +85,6 @@ class SigmaPointFilter {
   }
 
  private:
-  template <int M, class Function, class Difference>
-  Image<M> transform(const Vector<N>& x, const Matrix<N, Count>& dX, const Function& function, const Difference& difference) const {
-    const Vector<M> reference = function(x);
-    Matrix<M, Count> landed, offsets;
-    for (int i = 0; i < Count; ++i) {
-      landed.col(i) = function(Vector<N>(x + dX.col(i)));
-      offsets.col(i) = difference(Vector<M>(landed.col(i)), reference);
-    }
-    Image<M> image{dX, reference + offsets * points_.mean_weights, {}};
-    for (int i = 0; i < Count; ++i) image.deviations.col(i) = difference(Vector<M>(landed.col(i)), image.mean);
-    return image;
-  }
-
   SigmaPoints<N, Count> points_;
 };
 

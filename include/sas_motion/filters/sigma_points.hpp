@@ -50,4 +50,48 @@ SigmaPoints<N, 2 * N + 1> unscentedPoints(const UnscentedOptions& options) {
   return points;
 }
 
+/// Those of the spherical simplex.
+template <int N>
+struct SimplexPoints : SigmaPoints<N, N + 2> {};
+
+/// L xi.
+template <int N, int Count>
+Matrix<N, Count> spread(const SigmaPoints<N, Count>& points, const Matrix<N>& L) {
+  return L * points.offsets;
+}
+
+/// The same in N^2 operations: a corner of the simplex has -c in all dimensions after its own, and its own is one column of L.
+template <int N>
+Matrix<N, N + 2> spread(const SimplexPoints<N>& points, const Matrix<N>& L) {
+  Matrix<N, N + 2> corners;
+  Vector<N> later = Vector<N>::Zero();
+  for (int j = N; j >= 1; --j) {
+    const Vector<N> step = -points.offsets(j - 1, 1) * L.col(j - 1);
+    corners.col(j + 1) = j * step - later;
+    later += step;
+  }
+  corners.col(1) = -later;
+  corners.col(0).setZero();
+  return corners;
+}
+
+/// The N + 2 points of the spherical simplex: one at the mean, with weight W0 in [0, 1), and N + 1 at the corners of a simplex about it, sqrt(N / (1 - W0))
+/// away. About half as many as the unscented ones, right to the second degree. Throws std::invalid_argument for another W0. [Julier2003]
+template <int N>
+SimplexPoints<N> simplexPoints(double W0) {
+  if (!(W0 >= 0 && W0 < 1)) throw std::invalid_argument("the weight of the simplex's centre is " + std::to_string(W0) + " but must be at least 0 and below 1");
+  const double W1 = (1 - W0) / (N + 1);
+  SimplexPoints<N> points;
+  points.mean_weights.setConstant(W1);
+  points.mean_weights(0) = W0;
+  points.covariance_weights = points.mean_weights;
+  points.offsets.setZero();
+  for (int j = 1; j <= N; ++j) {  // each dimension turns the corners there are away from a new one
+    const double c = 1 / std::sqrt(j * (j + 1) * W1);
+    points.offsets.row(j - 1).segment(1, j).setConstant(-c);
+    points.offsets(j - 1, j + 1) = j * c;
+  }
+  return points;
+}
+
 }  // namespace sas_motion

@@ -7,6 +7,7 @@
 #include "sas_motion/filters/linearized.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/gaussian.hpp"
+#include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/mechanisation.hpp"
 
 /// Centralised fusion of INS, GPS and DVL by their errors [Qin2012]; numbers as in docs/ins_gps_dvl.md. Errors are computed minus true; C' = (I - [phi x]) C.
@@ -142,8 +143,6 @@ class ErrorModel {
 /// What a DVL makes of its velocity, by its scale and its small misalignment: (1 + s) (I - [mu x]).
 Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment);
 
-/// [v x].
-Matrix<3> crossMatrix(const Vector<3>& v);
 
 /// The INS without the errors that are estimated of it.
 NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit);

@@ -28,6 +28,17 @@ inline Attitude attitudeOf(const Matrix<3>& C) {
   return {std::asin(std::clamp(C(2, 1), -1.0, 1.0)), std::atan2(-C(2, 0), C(2, 2)), std::atan2(C(0, 1), C(1, 1))};
 }
 
+/// The turn by a rotation vector [rad].
+inline Eigen::Quaterniond quaternionOf(const Vector<3>& rotation) {
+  const double angle = rotation.norm(), half = 0.5 * angle;
+  const bool small = angle < 1e-4;  // the series is exact there
+  const double sinc = small ? 0.5 - angle * angle / 48 : std::sin(half) / angle, cosine = small ? 1 - 0.5 * half * half : std::cos(half);
+  return {cosine, sinc * rotation.x(), sinc * rotation.y(), sinc * rotation.z()};
+}
+
+/// [a x]: [a x] b = a x b.
+inline Matrix<3> skew(const Vector<3>& a) { return (Matrix<3>() << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0).finished(); }
+
 /// Components of starboard, forward, up from those of forward, port, up (REP-103); its transpose leads back.
 inline Matrix<3> bodyFromRosBody() { return (Matrix<3>() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(); }
 

@@ -19,10 +19,12 @@ struct Radii {
   double M = 0, N = 0;
 };
 
-inline Radii radii(double latitude, double height) {
-  const double s = std::sin(latitude), w = 1 - kEccentricitySquared * s * s;
+inline Radii radiiBySine(double sine_of_latitude, double height) {
+  const double w = 1 - kEccentricitySquared * sine_of_latitude * sine_of_latitude;
   return {kSemiMajorAxis * (1 - kEccentricitySquared) / (w * std::sqrt(w)) + height, kSemiMajorAxis / std::sqrt(w) + height};
 }
+
+inline Radii radii(double latitude, double height) { return radiiBySine(std::sin(latitude), height); }
 
 /// Derivatives of the radii by latitude [m/rad].
 inline Radii radiiByLatitude(double latitude) {
@@ -32,10 +34,12 @@ inline Radii radiiByLatitude(double latitude) {
 }
 
 /// Magnitude of gravity, downwards [m/s^2].
-inline double gravity(double latitude, double height) {
-  const double s2 = std::sin(latitude) * std::sin(latitude);
+inline double gravityBySine(double sine_of_latitude, double height) {
+  const double s2 = sine_of_latitude * sine_of_latitude;
   return 9.780325 * (1 + 5.2790414e-3 * s2 + 2.32718e-5 * s2 * s2) - kGravityPerHeight * height;
 }
+
+inline double gravity(double latitude, double height) { return gravityBySine(std::sin(latitude), height); }
 
 inline double gravityByLatitude(double latitude) {
   const double s = std::sin(latitude), c = std::cos(latitude);

@@ -30,6 +30,7 @@ struct Audit {
   Matrix<3> S = Matrix<3>::Zero();           ///< its covariance, before any weighting
   int iterations = 0;
   const char* reason = "";  ///< plain words, a literal; empty where there is nothing to say
+  double effective_size = 0;  ///< of a filter's particles, where it has some
 };
 
 struct NavigatorOptions {

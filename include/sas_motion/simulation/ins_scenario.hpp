@@ -56,4 +56,7 @@ struct Scenario {
   static std::vector<Outage> readOutages(YamlSection& owner, const std::string& key);
 };
 
+/// A file's keys start, track and waves. Throws ConfigError.
+void readTrack(YamlSection& yaml, Track& track);
+
 }  // namespace sas_motion::ins

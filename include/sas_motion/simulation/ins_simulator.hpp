@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "sas_motion/simulation/ins_scenario.hpp"
@@ -26,6 +28,27 @@ struct Recording {
 
 /// The inertial unit along a trajectory without any error.
 std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, double duration);
+
+/// Adds constants, a Gauss-Markov drift and white noise to what an inertial unit reads. (C.1)
+void addImuErrors(std::vector<ImuReading>& readings, const Parameters& parameters, std::uint64_t seed);
+
+/// One of the sensors that aid: its rows of white noise, when it says nothing, and when it says the same again.
+class AidingSource {
+ public:
+  AidingSource(const Scenario::Readings& readings, Sensor sensor, std::uint64_t seed);
+
+  /// Appends the reading at a time, unless there is none. `make(noise)` reads with white noise of variance 1.
+  void read(double time, const std::function<Aiding(const Vector<3>&)>& make, std::vector<LabelledAiding>& all);
+
+ private:
+  Scenario::Readings readings_;
+  Sensor sensor_;
+  std::vector<NoiseSource> rows_;
+  std::optional<Aiding> last_;
+};
+
+/// In the order of their stamps; those of one stamp stay as they are.
+void sortByStamp(std::vector<LabelledAiding>& aiding);
 
 /// Draws a run: (0.4) with the errors of (C.1), (C.3), (C.4). The same scenario and seed give the same numbers; sensors have streams of their
 /// own.

@@ -24,6 +24,7 @@ struct Track {
   double turn_rate = 4 * kRadPerDeg;  ///< largest in a turn [rad/s]
   Wave pitch{2 * kRadPerDeg, 6, 0.8}, roll{3 * kRadPerDeg, 7, 0.8}, yaw{1 * kRadPerDeg, 10, 0.8};
   Wave heave{0.3, 6, 0}, sway{0.3, 7, 1};
+  bool along_bow = false;  ///< the way goes where the bow points, which yaws and pitches, as a towed body's does; else along the course
 };
 
 /// The true motion at a time.
@@ -55,12 +56,17 @@ class Trajectory {
     double angle, rate;
   };
   Course course(double time) const;
-  /// Of the track without waves, from a node to a later time; east, north [m].
-  Vector<2> way(double begin, double end) const;
+  /// Direction of the way, and its derivative; east, north, up.
+  struct Direction {
+    Vector<3> unit, rate;
+  };
+  Direction direction(double time) const;
+  /// Without heave and sway, from a node to a later time; east, north, up [m].
+  Vector<3> way(double begin, double end) const;
 
   Track track_;
   double line_time_, turn_time_;
-  std::vector<Vector<2>> nodes_;  // the way up to multiples of kNode
+  std::vector<Vector<3>> nodes_;  // the way up to multiples of kNode
 };
 
 }  // namespace sas_motion::ins

@@ -144,7 +144,7 @@ void AidingFactor::distort(const gtsam::Values& values, const LinearMeasurement<
   if (!H) return;
   auto column = H->begin() + 1;
   if (scaled) *column++ = gtsam::Matrix(D.row(row_) * velocity / (1 + scale));
-  if (turned) *column = gtsam::Matrix((1 + scale) * crossMatrix(velocity).row(row_));
+  if (turned) *column = gtsam::Matrix((1 + scale) * skew(velocity).row(row_));
 }
 
 BeliefFactor::BeliefFactor(gtsam::Key node, const NavigationState& fused, const Gaussian<kStates>& belief)

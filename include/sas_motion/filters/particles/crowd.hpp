@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "sas_motion/filters/particles/weights.hpp"
+#include "sas_motion/filters/update.hpp"
+#include "sas_motion/math/counter_random.hpp"
+#include "sas_motion/math/factorization.hpp"
+#include "sas_motion/parallel/threads.hpp"
+#include "sas_motion/robust/loss.hpp"
+
+namespace sas_motion {
+
+/// Of every particle filter.
+struct ParticleOptions {
+  int particles = 1200;
+  double resample_below = 0.5;  ///< effective size over the number of particles
+  int threads = 1;              ///< the results are the same for any number
+  std::uint64_t seed = 1;
+  std::optional<Loss> loss;  ///< against outliers: a row's noise grows by the inverse of its weight, for all particles alike
+};
+
+/// The report of one update of a particle filter. Invalid where z is no measurement, or where no particle explains it: then all are kept, with
+/// equal weights.
+template <int M>
+struct ParticleUpdate {
+  Vector<M> innovation = Vector<M>::Zero();  ///< z less the mean of h
+  Matrix<M> S = Matrix<M>::Zero();           ///< covariance of the innovation, by the particles
+  double nis = 0;
+  Vector<M> weights = Vector<M>::Ones();  ///< by row, of the loss
+  double effective_size = 0;              ///< before any resampling
+  bool resampled = false;
+  Verdict verdict = Verdict::Invalid;
+};
+
+/// What particle filters share: the particles in two buffers, their weights, threads and random numbers.
+template <class Particle>
+class Crowd {
+ public:
+  explicit Crowd(const ParticleOptions& options)
+      : options_(options),
+        weights_(static_cast<std::size_t>(std::max(0, options.particles))),
+        particles_(static_cast<std::size_t>(options.particles)),
+        others_(particles_.size()),
+        predicted_(particles_.size() * kMostRows),
+        parents_(particles_.size()),
+        team_(std::make_unique<ThreadTeam>(options.threads)) {}
+
+  std::size_t size() const { return particles_.size(); }
+  Particle& operator[](std::size_t i) { return particles_[i]; }
+  const Particle& operator[](std::size_t i) const { return particles_[i]; }
+  ParticleWeights& weights() { return weights_; }
+  const ParticleWeights& weights() const { return weights_; }
+  const ParticleOptions& options() const { return options_; }
+
+  /// Does `work(i)` for every particle, some at a time.
+  template <class Work>
+  void forEach(const Work& work) {
+    constexpr std::size_t kTogether = 25;
+    team_->forEach((size() + kTogether - 1) / kTogether, [&](std::size_t task) {
+      for (std::size_t i = task * kTogether; i < std::min(size(), (task + 1) * kTogether); ++i) work(i);
+    });
+  }
+
+  /// The next numbers are of another step.
+  void nextStep() { ++step_; }
+  CounterRandom random(std::size_t i) const { return {options_.seed, {0, step_, static_cast<std::uint32_t>(i)}}; }
+  template <int N>
+  Vector<N> gaussians(std::size_t i) const {
+    CounterRandom source = random(i);
+    Vector<N> draws;
+    for (int row = 0; row < N; ++row) draws(row) = source.gaussian();
+    return draws;
+  }
+
+  /// Innovation, its covariance and the rows' weights, from `h` of each particle's state and `own`, the mean covariance that a particle has of h.
+  template <int M, class State, class Function, class Difference>
+  ParticleUpdate<M> examine(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Matrix<M>& own, const Difference& difference, const State& state) {
+    static_assert(M <= kMostRows);
+    const auto predicted = [&](std::size_t i) { return Eigen::Map<Vector<M>>(predicted_.data() + kMostRows * i); };
+    forEach([&](std::size_t i) { predicted(i) = h(state(particles_[i])); });
+    const Vector<M> reference = predicted(weights_.heaviest());
+    Vector<M> mean = Vector<M>::Zero();
+    Matrix<M> square = Matrix<M>::Zero();
+    for (std::size_t i = 0; i < size(); ++i) {
+      const Vector<M> offset = difference(Vector<M>(predicted(i)), reference);
+      if (!offset.allFinite()) continue;
+      mean += weights_.values()[i] * offset;
+      square += weights_.values()[i] * offset * offset.transpose();
+    }
+    ParticleUpdate<M> update;
+    update.innovation = difference(z, Vector<M>(reference + mean));
+    update.S = R + own + square - mean * mean.transpose();
+    const auto root = choleskyLower<M>(update.S);
+    if (!root || !update.innovation.allFinite() || !choleskyLower<M>(R)) return update;
+    update.nis = root->template triangularView<Eigen::Lower>().solve(update.innovation).squaredNorm();
+    if (options_.loss)
+      for (int row = 0; row < M; ++row) update.weights(row) = options_.loss->weight(update.innovation(row) / std::sqrt(update.S(row, row)));
+    update.verdict = verdictFromWeights<M>(update.weights);
+    return update;
+  }
+
+  /// Root of the noise that every particle is told: R with its rows' variances over their weights.
+  template <int M>
+  static Matrix<M> noiseRoot(const Matrix<M>& R, const Vector<M>& weights) {
+    return weights.cwiseMax(kTiny).cwiseSqrt().cwiseInverse().asDiagonal() * choleskyLower<M>(R).value();
+  }
+
+  /// Normalises, and resamples where too few particles count; `renew(particle, copies, i)` makes the i-th from one of `copies` of its parent.
+  template <int M, class Renew>
+  void weigh(ParticleUpdate<M>& update, const Renew& renew) {
+    if (!weights_.normalise()) update.verdict = Verdict::Invalid;
+    update.effective_size = weights_.effectiveSize();
+    update.resampled = update.effective_size < options_.resample_below * static_cast<double>(size());
+    if (!update.resampled) return;
+    nextStep();
+    resampleSystematically(weights_.values(), random(size()).uniform(), parents_);
+    forEach([&](std::size_t i) {
+      others_[i] = particles_[parents_[i]];
+      const auto [first, last] = std::equal_range(parents_.begin(), parents_.end(), parents_[i]);
+      renew(others_[i], last - first, i);
+    });
+    particles_.swap(others_);
+    weights_.makeEqual();
+    nextStep();
+  }
+
+ private:
+  static constexpr int kMostRows = 6;
+  static constexpr double kTiny = 1e-9;
+
+  ParticleOptions options_;
+  ParticleWeights weights_;
+  std::vector<Particle> particles_, others_;
+  std::vector<double> predicted_;
+  std::vector<std::size_t> parents_;
+  std::unique_ptr<ThreadTeam> team_;
+  std::uint32_t step_ = 0;
+};
+
+/// Mean and covariance of weighted states, without those that are not finite.
+template <int N, class Particles, class State>
+Gaussian<N> momentsOf(const Particles& crowd, const State& state) {
+  Gaussian<N> moments{Vector<N>::Zero(), Matrix<N>::Zero()};
+  const auto overParticles = [&](const auto& add) {
+    for (std::size_t i = 0; i < crowd.size(); ++i)
+      if (crowd.weights().values()[i] > 0 && state(crowd[i]).allFinite()) add(crowd.weights().values()[i], state(crowd[i]));
+  };
+  double sum = 0;
+  overParticles([&](double weight, const Vector<N>& x) { sum += weight, moments.mean += weight * x; });
+  moments.mean /= sum;
+  overParticles([&](double weight, const Vector<N>& x) {
+    const Vector<N> offset = x - moments.mean;
+    moments.covariance.noalias() += weight / sum * offset * offset.transpose();
+  });
+  return moments;
+}
+
+}  // namespace sas_motion

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sas_motion/filters/particles/belief_form.hpp"
+#include "sas_motion/filters/particles/crowd.hpp"
+#include "sas_motion/filters/particles/gaussian_density.hpp"
+#include "sas_motion/filters/sigma_image.hpp"
+
+namespace sas_motion {
+
+/// How the particles of an unscented particle filter are weighed.
+enum class Weighting {
+  Mixture,          ///< each particle is a Gaussian of a mixture, weighed by how it predicts z; drawn from where one is copied
+  OptimalProposal,  ///< each is a point, moved by a draw from p(x | its last point, z)
+  Literal,          ///< each is a point with a filter's covariance of its own, moved by a draw from what that filter says [Merwe2000]
+};
+
+struct UnscentedParticleOptions : ParticleOptions {
+  Weighting weighting = Weighting::Mixture;
+  double kept = 0.95;  ///< of its covariance by each copy of a Gaussian; the copies are drawn from the rest, so that the mixture's stays
+};
+
+/// A particle filter whose particles each run a sigma-point filter, `Filter`: with SigmaPointFilter and unscented points the UPF [Merwe2000], with
+/// SquareRootFilter and spherical simplex points the SS-SRUPF [Li2014].
+///
+/// A step allocates nothing. Its results depend on the seed, not on the number of threads. A single particle is its filter alone.
+template <int N, class Filter>
+class UnscentedParticleFilter {
+ public:
+  using Belief = typename Filter::Belief;
+  struct Particle {
+    Belief belief;
+    Vector<N> moved;  ///< where the model alone takes the last point
+  };
+
+  /// Throws std::invalid_argument where there are no particles.
+  UnscentedParticleFilter(const Filter& filter, const UnscentedParticleOptions& options)
+      : filter_(filter), weighting_(options.weighting), kept_(options.kept), crowd_(options) {}
+
+  /// Draws the particles from a belief; false where its covariance is not positive definite.
+  bool start(const Gaussian<N>& belief) { return start(belief, belief.covariance); }
+
+  /// Likewise; a Gaussian of the mixture keeps of `own` what a copy keeps and no more, so that a function is near enough to linear over it.
+  bool start(const Gaussian<N>& belief, const Matrix<N>& own) {
+    const auto root = choleskyLower<N>(belief.covariance), drawn = choleskyLower<N>(belief.covariance - kept_ * own), kept = choleskyLower<N>(kept_ * own);
+    if (!root || !drawn || !kept) return false;
+    crowd_.nextStep();
+    noise_root_.setZero();
+    const bool mixture = weighting_ == Weighting::Mixture, alone = mixture && crowd_.size() == 1;
+    crowd_.forEach([&](std::size_t i) {
+      const Matrix<N>& spread = mixture ? *drawn : *root;
+      crowd_[i].belief = Form::of(belief.mean, mixture && !alone ? *kept : *root);
+      move(crowd_[i], alone ? belief.mean : Vector<N>(belief.mean + spread * crowd_.template gaussians<N>(i)));
+    });
+    crowd_.weights().makeEqual();
+    return true;
+  }
+
+  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that comes to where numbers are not finite has no weight from then on.
+  template <class Function>
+  void predict(const Function& f, const Matrix<N>& Q_root) {
+    addSquares<N, N>(noise_root_, Q_root);
+    crowd_.forEach([&](std::size_t i) {
+      Particle& particle = crowd_[i];
+      if (weighting_ != Weighting::Mixture) particle.moved = f(particle.moved);
+      if (weighting_ == Weighting::OptimalProposal)
+        particle.belief = Form::of(particle.moved, noise_root_);
+      else if (const auto prior = filter_.predict(particle.belief, f, Form::noise(Q_root)))
+        particle.belief = *prior;
+      else
+        crowd_.weights().multiply(i, std::numeric_limits<double>::quiet_NaN());
+    });
+  }
+
+  /// After reading z = h(x) + v, v ~ N(0, R).
+  template <int M, class Function, class Difference = PlainDifference>
+  ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) {
+    const auto mean = [](const Particle& particle) -> const Vector<N>& { return particle.belief.mean; };
+    auto update = crowd_.template examine<M>(z, h, R, ownCovariance<M>(h, difference), difference, mean);
+    if (update.verdict == Verdict::Invalid) return update;
+    const Matrix<M> R_root = crowd_.noiseRoot(R, update.weights);
+    crowd_.nextStep();
+    crowd_.forEach([&](std::size_t i) { crowd_.weights().multiply(i, correct<M>(i, z, h, R_root, difference)); });
+    crowd_.weigh(update, [&](Particle& particle, std::ptrdiff_t copies, std::size_t i) {
+      if (weighting_ == Weighting::Mixture) split(particle, copies, i);
+    });
+    noise_root_.setZero();
+    return update;
+  }
+
+  /// Replaces every particle's state by a function of it, as to keep a constraint.
+  template <class Function>
+  void replace(const Function& function) {
+    crowd_.forEach([&](std::size_t i) { move(crowd_[i], function(crowd_[i].belief.mean)); });
+  }
+
+  Gaussian<N> belief() const {
+    auto moments = momentsOf<N>(crowd_, [](const Particle& particle) -> const Vector<N>& { return particle.belief.mean; });
+    if (weighting_ == Weighting::Mixture)
+      for (std::size_t i = 0; i < crowd_.size(); ++i)
+        if (const double weight = crowd_.weights().values()[i]; weight > 0 && crowd_[i].belief.mean.allFinite())
+          moments.covariance.noalias() += weight * gaussian(crowd_[i].belief).covariance;
+    return moments;
+  }
+  const Crowd<Particle>& particles() const { return crowd_; }
+
+ private:
+  using Form = BeliefForm<Belief>;
+
+  /// What the heaviest particle's covariance becomes in z: the particles' are much alike.
+  template <int M, class Function, class Difference>
+  Matrix<M> ownCovariance(const Function& h, const Difference& difference) const {
+    const auto image = filter_.template project<M>(crowd_[crowd_.weights().heaviest()].belief, h, difference);
+    return image ? filter_.template secondMoment<M, M>(image->deviations, image->deviations) : Matrix<M>(Matrix<M>::Zero());
+  }
+
+  /// Lets a particle's filter read z, draws where the weighting says so, and returns the logarithm of what its weight is multiplied by.
+  template <int M, class Function, class Difference>
+  double correct(std::size_t i, const Vector<M>& z, const Function& h, const Matrix<M>& R_root, const Difference& difference) {
+    Particle& particle = crowd_[i];
+    const auto result = filter_.update(particle.belief, z, h, Form::noise(R_root), difference);
+    if (result.verdict == Verdict::Invalid) return std::numeric_limits<double>::quiet_NaN();
+    particle.belief = result.belief;
+    if (weighting_ == Weighting::Mixture) {
+      const auto S_root = choleskyLower<M>(result.S);
+      return S_root ? logDensity<M>(result.innovation, *S_root) : std::numeric_limits<double>::quiet_NaN();
+    }
+    const auto root = Form::root(particle.belief);
+    if (!root) return std::numeric_limits<double>::quiet_NaN();
+    const Vector<N> step = *root * crowd_.template gaussians<N>(i), x = particle.belief.mean + step;
+    const double likelihood = logDensity<M>(difference(z, Vector<M>(h(x))), R_root);
+    const double transition = logDensity<N>(x - particle.moved, noise_root_), proposal = logDensity<N>(step, *root);
+    move(particle, x);
+    return likelihood + transition - proposal;  // (B.8)
+  }
+
+  static void move(Particle& particle, const Vector<N>& x) { particle.moved = particle.belief.mean = x; }
+
+  /// Draws one of several copies from its parent's Gaussian and narrows it, so that together they have the parent's covariance.
+  void split(Particle& particle, std::ptrdiff_t copies, std::size_t i) const {
+    if (copies < 2) return;
+    const auto root = Form::root(particle.belief);
+    if (!root) return;
+    move(particle, particle.belief.mean + std::sqrt(1 - kept_) * (*root * crowd_.template gaussians<N>(i)));
+    Form::scale(particle.belief, kept_);
+  }
+
+  Filter filter_;
+  Weighting weighting_;
+  double kept_;
+  Crowd<Particle> crowd_;
+  Matrix<N> noise_root_ = Matrix<N>::Zero();  // of all since the last update
+};
+
+}  // namespace sas_motion

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sas_motion/filters/sigma_points.hpp"
+
+namespace sas_motion {
+
+/// y - x where nothing wraps.
+struct PlainDifference {
+  template <class V>
+  V operator()(const V& y, const V& x) const {
+    return y - x;
+  }
+};
+
+/// Where a function sends the points of a belief.
+template <int N, int M, int Count>
+struct SigmaImage {
+  Matrix<N, Count> dX;          ///< the points less the belief's mean
+  Vector<M> mean;               ///< of the function
+  Matrix<M, Count> deviations;  ///< of the function at each point from it
+};
+
+/// Sends x + dX through `function`. Means are formed of differences from one image, that of the mean where it is a point, so that points on
+/// both sides of +-pi average rightly.
+template <int M, int N, int Count, class Function, class Difference>
+SigmaImage<N, M, Count> imageOf(const SigmaPoints<N, Count>& points, const Vector<N>& x, const Matrix<N, Count>& dX, const Function& function,
+                                const Difference& difference) {
+  Matrix<M, Count> landed, offsets;
+  for (int i = 0; i < Count; ++i) landed.col(i) = function(Vector<N>(x + dX.col(i)));
+  const bool centred = points.offsets.col(0).isZero(0);
+  const Vector<M> reference = centred ? Vector<M>(landed.col(0)) : Vector<M>(function(x));
+  for (int i = 0; i < Count; ++i) offsets.col(i) = difference(Vector<M>(landed.col(i)), reference);
+  SigmaImage<N, M, Count> image{dX, reference + offsets * points.mean_weights, {}};
+  for (int i = 0; i < Count; ++i) image.deviations.col(i) = difference(Vector<M>(landed.col(i)), image.mean);
+  return image;
+}
+
+}  // namespace sas_motion

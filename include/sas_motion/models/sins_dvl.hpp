@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sas_motion/math/angles.hpp"
+#include "sas_motion/math/gaussian.hpp"
+#include "sas_motion/navigation/preintegration.hpp"
+
+/// A strapdown INS aided by a DVL, by errors that may be large: attitude errors are additive errors of the quaternion [Yu1999, Li2014]; numbers as in
+/// docs/sins_dvl.md. Errors are computed minus true.
+namespace sas_motion::sins {
+
+/// Where each group of states begins; SI units.
+enum State {
+  kPosition = 0,        ///< latitude, longitude [rad], height [m]
+  kVelocity = 3,        ///< east, north, up
+  kQuaternion = 6,      ///< of q_nav_body, scalar first
+  kGyro = 10,           ///< drift; body
+  kDvlOffset = 13,      ///< of the forward velocity
+  kDvlScale = 14,       ///< [-]
+  kDvlAngle = 15,       ///< drift angle, to starboard
+  kAccelerometer = 16,  ///< bias; body; of 19 states
+};
+constexpr int kPaperStates = 16;  ///< the paper's: accelerometers count as free of bias
+constexpr int kStates = 19;
+
+constexpr double kDegPerHour = kRadPerDeg / 3600;
+constexpr double kMicroG = 9.80665e-6;  ///< [m/s^2]
+
+/// How wrong the sensors are, and the start. Section B.7 of the specification and, where that is silent, its defaults.
+struct Parameters {
+  double gyro_constant = 0.1 * kDegPerHour;            ///< [rad/s]
+  double angle_random_walk = 0.003 * kRadPerDeg / 60;  ///< [rad/sqrt(s)]
+  double accelerometer_constant = 500 * kMicroG;       ///< [m/s^2]
+  double velocity_random_walk = 10 * kMicroG;          ///< [m/s/sqrt(s)]
+  double dvl_offset = 0.01;                            ///< [m/s]
+  double dvl_offset_time = 600;                        ///< correlation time [s]
+  double dvl_scale = 0.002;                            ///< [-]
+  double dvl_angle = 0.2 * kRadPerDeg;                 ///< [rad]
+  double dvl_angle_time = 600;                         ///< correlation time [s]
+  Vector<3> dvl_white{0.006, 0.006, 0.018};            ///< starboard, forward, up [m/s]
+  double depth_white = 0.1;                            ///< [m]
+  Vector<3> start_position{0.06, 0.06, 1};             ///< east, north, up [m]
+  double start_velocity = 0.05;                        ///< [m/s]
+  double start_tilt = 0.05 * kRadPerDeg;               ///< [rad]
+  double start_heading = 0.3 * kRadPerDeg;             ///< [rad]
+};
+
+/// q = [scalar, vector] as the state has it.
+inline Vector<4> coefficients(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+/// [0, w] q = Y(q) w. Its columns are orthonormal for a unit quaternion.
+Matrix<4, 3> leftTurn(const Eigen::Quaterniond& q);
+/// q [0, w] = U(q) w.
+Matrix<4, 3> rightTurn(const Eigen::Quaterniond& q);
+
+/// Where a body comes that began at `state` and felt `felt`, if its unit has drift `eps` and bias `nabla`.
+NavigationState moved(const NavigationState& state, const Preintegration& felt, const Vector<3>& eps, const Vector<3>& nabla);
+
+/// The error dynamics over an interval, exactly: the INS and what an error says is the truth are both moved, and compared. (B.1)-(B.4)
+template <int N>
+class Motion {
+ public:
+  /// `ins`: at the interval's beginning.
+  Motion(const Parameters& parameters, const NavigationState& ins, const Preintegration& felt);
+
+  Vector<N> operator()(const Vector<N>& x) const;
+  /// Lower triangular root of the noise over the interval. States that are constants get a little of it, so that it has full rank.
+  Matrix<N> noiseRoot() const;
+
+ private:
+  NavigationState ins_, ins_moved_;
+  Preintegration felt_;
+  Parameters parameters_;
+  double offset_decay_, angle_decay_;
+};
+
+/// What an error says of the INS as it stands: the truth, and what sensors read.
+template <int N>
+class View {
+ public:
+  explicit View(const NavigationState& ins) : ins_(ins) {}
+
+  NavigationState corrected(const Vector<N>& x) const;
+  /// (B.5) on the DVL's axes; `turning_body` is its velocity by turning about the INS.
+  Vector<3> dvl(const Vector<N>& x, const Vector<3>& turning_body) const;
+  double height(const Vector<N>& x) const { return ins_.height - x(kPosition + 2); }
+  /// The same error with a true quaternion of length one.
+  Vector<N> constrained(const Vector<N>& x) const;
+  /// Velocity, position and attitude errors [m/s, m, rad] east, north, up, to first order in a change of x.
+  Matrix<9, N> solutionByError(const Vector<N>& x) const;
+
+ private:
+  NavigationState ins_;
+};
+
+/// What is known of the errors at the start, where the INS believes to be at `ins`.
+template <int N>
+Gaussian<N> startBelief(const Parameters& parameters, const NavigationState& ins);
+
+}  // namespace sas_motion::sins

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sas_motion/filters/particles/unscented_particle_filter.hpp"
+#include "sas_motion/models/sins_dvl.hpp"
+#include "sas_motion/pipeline/ins_estimator.hpp"
+
+namespace sas_motion::sins {
+
+/// What every estimator of this system is told.
+struct Config {
+  Parameters parameters;
+  Mechanisation::Options imu;
+  UnscentedParticleOptions particles;  ///< number, threads, seed; the estimator's name says the weighting and whether there is a loss
+  bool accelerometer_bias = true;      ///< 19 states; else the paper's 16
+  double longest_step = 1;             ///< of one prediction of the filter [s]
+};
+
+/// Of the particles of the paper's filters, or of one filter of that kind alone.
+enum class FilterKind { Bootstrap, Unscented, SquareRoot };
+struct NamedFilter {
+  std::string name;
+  FilterKind kind;
+  Weighting weighting = Weighting::Mixture;
+  bool alone = false;   ///< one particle
+  bool robust = false;  ///< with a loss against outliers
+  bool smooth = false;  ///< for imaging: without the jumps of readings, see SmoothTrack
+};
+const std::vector<NamedFilter>& namedFilters();
+/// Null for an unknown name.
+const NamedFilter* findFilter(const std::string& name);
+
+/// pf, upf, ss_srupf, their forms, ss_srukf, ukf; null for any other name. The INS is mechanised from its readings and never corrected; its estimated
+/// errors are taken out of the solution. Audits hold the effective number of particles.
+std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config);
+
+}  // namespace sas_motion::sins

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "ins_score.hpp"
+#include "sas_motion/io/cpu_time.hpp"
+#include "sas_motion/math/statistics.hpp"
+#include "sas_motion/pipeline/sins_estimator.hpp"
+#include "sas_motion/simulation/sins_scenario.hpp"
+#include "systems.hpp"
+
+namespace sas_motion {
+namespace {
+
+using namespace sins;
+
+constexpr double kScoreEvery = 0.1;                        // [s]
+constexpr double kAlignedHeading = 2 * kRadPerDeg;         // three standard deviations of the bound: an estimator whose heading stays within has converged
+const towfish::ApertureOptions kAperture{66, 0.015, 0.1};  // 3.3 s at 3 m/s
+
+/// One law, as it is simulated and as the estimators are told.
+struct Case {
+  Scenario scenario;
+  ins::Scenario scored;  // the same motion
+};
+
+/// One estimator over one run.
+class Follower {
+ public:
+  Follower(const Case& one, const ins::Trajectory& trajectory, double skip) : case_(one), trajectory_(trajectory), score_(one.scored, skip, kAperture) {}
+
+  void run(ins::Estimator& estimator, const ins::Recording& recording) {
+    estimator.start(recording.start, 0);
+    auto next = recording.aiding.begin();
+    auto labelled = next;
+    ins::Output output;
+    double seconds = 0;
+    for (const auto& reading : recording.imu) {
+      const double begin = cpuSeconds();
+      for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator.process(next->reading, output);
+      estimator.process(reading, output);
+      seconds += cpuSeconds() - begin;
+      for (const auto& audit : output.audits) note(audit, *labelled++);
+      for (const auto& solution : output.solutions) note(solution);
+      output.clear();
+    }
+    microseconds_ = 1e6 * seconds / static_cast<double>(std::max<std::size_t>(1, recording.aiding.size()));
+  }
+
+  EstimatorReport report(const std::string& name) const {
+    EstimatorReport report = score_.report(name);
+    const auto add = [&](const char* group, double value) { report.errors.emplace_back(group, towfish::ErrorSummary{value, value, value}); };
+    add("drift_percent", 100 * end_error_ / (case_.scenario.track.speed * case_.scenario.duration));
+    add("converged_after", converged_after_);
+    if (!effective_sizes_.empty()) add("effective_particles", quantile(effective_sizes_, 0.5));
+    report.microseconds = microseconds_;
+    return report;
+  }
+  Trace trace() const {
+    Trace trace = score_.trace();
+    trace.nees_degrees = 9;
+    trace.nis_degrees = 3;
+    return trace;
+  }
+
+ private:
+  void note(const ins::Audit& audit, const ins::LabelledAiding& labelled) {
+    score_.add(audit, labelled);
+    if (audit.sensor == ins::Sensor::Dvl && audit.effective_size > 0) effective_sizes_.push_back(audit.effective_size);
+  }
+
+  void note(const ins::Solution& solution) {
+    const double time = secondsBetween(0, solution.stamp), ticks = time / kScoreEvery;
+    if (std::abs(ticks - std::round(ticks)) > 1e-6) return;
+    const ins::TruthSample truth = trajectory_.at(time);
+    score_.add(truth, solution);
+    end_error_ = displacement(truth.state, solution.state).head<2>().norm();
+    if (std::abs(attitudeError(solution.state.q_nav_body, truth.state.q_nav_body).z()) > kAlignedHeading) converged_after_ = time;
+  }
+
+  const Case& case_;
+  const ins::Trajectory& trajectory_;
+  ins::Score score_;
+  double microseconds_ = 0, end_error_ = 0, converged_after_ = 0;
+  std::vector<double> effective_sizes_;
+};
+
+class SinsSystem final : public System {
+ public:
+  SinsSystem(YamlSection& campaign, const std::string& folder) {
+    std::string file;
+    campaign.text("scenario", file);
+    if (file.empty()) campaign.fail("scenario", "is missing; name a scenario file");
+    Scenario scenario = Scenario::fromFile(std::filesystem::path(folder) / file);
+    campaign.number("duration", scenario.duration, {1, 1e6});
+    duration = scenario.duration;
+    skip = 60;
+    campaign.number("skip", skip, {0, 1e6});
+    if (skip >= duration) campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
+    campaign.integer("particles", particles_.particles, 1, 1'000'000);
+    campaign.integer("threads", particles_.threads, 1, 1024);
+    campaign.boolean("accelerometer_bias", accelerometer_bias_);
+    dimension = accelerometer_bias_ ? kStates : kPaperStates;
+    campaign.texts("estimators", estimators);
+    if (estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
+    for (const auto& name : estimators)
+      if (!findFilter(name) && !smallAngle(name)) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
+    for (auto& item : campaign.list("laws")) readLaw(item, scenario);
+    if (laws.empty()) campaign.fail("laws", "is missing; list at least one");
+  }
+
+  std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
+    std::vector<EstimatorReport> reports;
+    forEachEstimator(law, seed, [&](const std::string& name, const Follower& follower) { reports.push_back(follower.report(name)); });
+    return reports;
+  }
+
+  Named<Trace> trace(std::size_t law, std::uint64_t seed) const override {
+    Named<Trace> traces;
+    forEachEstimator(law, seed, [&](const std::string& name, const Follower& follower) { traces.emplace_back(name, follower.trace()); });
+    return traces;
+  }
+
+  Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override { return sinsBound(cases_[law].scenario, skip, seeds); }
+
+ private:
+  /// The fusion by small angles, which stands beside.
+  static bool smallAngle(const std::string& name) { return name == "ckf27" || name == "robust_ckf27"; }
+
+  std::unique_ptr<ins::Estimator> make(const std::string& name, const Case& one, std::uint64_t seed) const {
+    Mechanisation::Options imu;
+    imu.period = 1 / one.scenario.imu_rate;
+    if (smallAngle(name)) {
+      ins::Config config;
+      config.parameters = one.scored.parameters;
+      config.imu = imu;
+      return ins::makeEstimator(name, config);
+    }
+    Config config{one.scenario.parameters, imu, particles_, accelerometer_bias_};
+    config.particles.seed = seed;
+    return makeEstimator(name, config);
+  }
+
+  template <class Visit>
+  void forEachEstimator(std::size_t law, std::uint64_t seed, const Visit& visit) const {
+    const Case& one = cases_[law];
+    const ins::Trajectory trajectory(one.scenario.track, one.scenario.duration);
+    const ins::Recording recording = sins::simulate(one.scenario, trajectory, seed);
+    for (const auto& name : estimators) {
+      Follower follower(one, trajectory, skip);
+      follower.run(*make(name, one, seed), recording);
+      visit(name, follower);
+    }
+  }
+
+  /// `noise` is of the DVL; `heading_deg` is the initial misalignment of the heading.
+  void readLaw(YamlSection& item, Scenario scenario) {
+    std::string name;
+    item.text("name", name);
+    if (item.has("noise")) scenario.dvl.noise = ins::Scenario::readNoise(item, "noise");
+    item.angle("heading_deg", scenario.parameters.start_heading, {kTiny, 90});
+    item.finish();
+    laws.push_back(lawInfo(name, scenario.dvl.noise, {}));
+    cases_.push_back({scenario, withoutGps(scenario)});
+  }
+
+  UnscentedParticleOptions particles_;
+  bool accelerometer_bias_ = true;
+  std::vector<Case> cases_;  // by law
+};
+
+}  // namespace
+
+std::unique_ptr<System> makeSinsSystem(YamlSection& campaign, const std::string& folder) { return std::make_unique<SinsSystem>(campaign, folder); }
+
+}  // namespace sas_motion

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/math/counter_random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sas_motion {
+namespace {
+
+TEST(CounterRandom, CountsByTheCipherOfItsPaper) {
+  // The known answers that come with Random123: all zeros, all ones, and digits of pi.
+  const auto expect = [](philox4x32_ctr_t counter, philox4x32_key_t key, philox4x32_ctr_t answer) { EXPECT_TRUE(philox4x32(counter, key) == answer); };
+  expect({{0, 0, 0, 0}}, {{0, 0}}, {{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}});
+  expect({{~0u, ~0u, ~0u, ~0u}}, {{~0u, ~0u}}, {{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}});
+  expect({{0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}}, {{0xa4093822, 0x299f31d0}}, {{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}});
+  CounterRandom random(0, {});
+  EXPECT_EQ(random(), 0xe169c58d6627e8d5u);
+  EXPECT_EQ(random(), 0x9b00dbd8bc57ac4cu);
+}
+
+TEST(CounterRandom, DrawsDependOnTheirPlaceAlone) {
+  CounterRandom first(7, {1, 2, 3}), again(7, {1, 2, 3});
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(first.gaussian(), again.gaussian());
+  const double draw = CounterRandom(7, {1, 2, 3}).gaussian();
+  EXPECT_NE(draw, CounterRandom(8, {1, 2, 3}).gaussian());
+  EXPECT_NE(draw, CounterRandom(7, {0, 2, 3}).gaussian());
+  EXPECT_NE(draw, CounterRandom(7, {1, 3, 3}).gaussian());
+  EXPECT_NE(draw, CounterRandom(7, {1, 2, 4}).gaussian());
+}
+
+TEST(CounterRandom, NeighboursAreStandardNormalAndIndependent) {
+  constexpr int kCount = 200000;
+  double sum = 0, square = 0, fourth = 0, product = 0, last = 0;
+  for (std::uint32_t item = 0; item < kCount; ++item) {
+    const double x = CounterRandom(11, {0, 5, item}).gaussian();
+    sum += x;
+    square += x * x;
+    fourth += x * x * x * x;
+    product += x * last;
+    last = x;
+  }
+  const double four_sigma = 4 / std::sqrt(kCount);
+  EXPECT_NEAR(sum / kCount, 0, four_sigma);
+  EXPECT_NEAR(square / kCount, 1, std::sqrt(2.0) * four_sigma);
+  EXPECT_NEAR(fourth / kCount, 3, std::sqrt(96.0) * four_sigma);
+  EXPECT_NEAR(product / kCount, 0, four_sigma);
+}
+
+}  // namespace
+}  // namespace sas_motion

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/pipeline/sins_estimator.hpp"
+
+#include "sas_motion/simulation/sins_scenario.hpp"
+#include "support.hpp"
+
+namespace sas_motion::sins {
+namespace {
+
+Scenario scenarioOf(const std::string& name, double duration) {
+  auto scenario = Scenario::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/scenarios/sins_dvl/" + name + ".yaml");
+  scenario.duration = duration;
+  return scenario;
+}
+
+struct Outcome {
+  std::vector<ins::Solution> solutions;
+  std::vector<ins::Audit> audits;
+  Vector<3> position_error, attitude_error;  // at the end
+};
+
+Outcome run(const Scenario& scenario, const ins::Recording& recording, const std::string& name, int particles, int threads = 1) {
+  Config config;
+  config.parameters = scenario.parameters;
+  config.particles.particles = particles;
+  config.particles.threads = threads;
+  const auto estimator = makeEstimator(name, config);
+  estimator->start(recording.start, 0);
+  ins::Output output;
+  auto next = recording.aiding.begin();
+  for (const auto& reading : recording.imu) {
+    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator->process(next->reading, output);
+    estimator->process(reading, output);
+  }
+  const NavigationState truth = ins::Trajectory(scenario.track, scenario.duration).at(scenario.duration).state, &end = output.solutions.back().state;
+  return {output.solutions, output.audits, displacement(truth, end), attitudeError(end.q_nav_body, truth.q_nav_body)};
+}
+
+ins::Recording recordingOf(const Scenario& scenario, std::uint64_t seed) {
+  return simulate(scenario, ins::Trajectory(scenario.track, scenario.duration), seed);
+}
+
+TEST(SinsEstimator, ConvergesFromAHeadingThatIsThirtyDegreesOff) {
+  Scenario scenario = scenarioOf("large_angle", 60);
+  scenario.parameters.start_heading = 30 * kRadPerDeg;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto outcome = run(scenario, recordingOf(scenario, seed), "ss_srupf", 200);
+    EXPECT_LT(std::abs(outcome.attitude_error.z()), 2 * kRadPerDeg) << "seed " << seed;
+    EXPECT_LT(outcome.position_error.head<2>().norm(), 0.05 * 180) << "seed " << seed;
+  }
+}
+
+TEST(SinsEstimator, GivesASolutionAtEveryReadingOfTheUnitAndAuditsEveryOther) {
+  const Scenario scenario = scenarioOf("accuracy", 20);
+  const auto recording = recordingOf(scenario, 4);
+  for (const auto& named : namedFilters()) {
+    const auto outcome = run(scenario, recording, named.name, 50);
+    ASSERT_EQ(outcome.solutions.size(), recording.imu.size()) << named.name;
+    ASSERT_EQ(outcome.audits.size(), recording.aiding.size()) << named.name;
+    for (const auto& audit : outcome.audits) {
+      EXPECT_EQ(audit.verdict, Verdict::Accepted) << named.name;
+      EXPECT_GE(audit.effective_size, 1);
+      EXPECT_LE(audit.effective_size, named.alone ? 1 : 50.0001);
+    }
+    EXPECT_EQ(outcome.solutions.back().covariance.has_value(), !named.smooth) << named.name;
+    EXPECT_LT(outcome.position_error.norm(), 5) << named.name;
+  }
+  EXPECT_EQ(makeEstimator("srukf", {}), nullptr);
+}
+
+TEST(SinsEstimator, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const Scenario scenario = scenarioOf("large_angle", 10);
+  const auto recording = recordingOf(scenario, 5);
+  const auto one = run(scenario, recording, "ss_srupf", 100, 1), three = run(scenario, recording, "ss_srupf", 100, 3);
+  EXPECT_EQ(one.position_error, three.position_error);
+  EXPECT_EQ(one.attitude_error, three.attitude_error);
+}
+
+TEST(SinsEstimator, SixteenStatesTakeTheirWayToo) {
+  const Scenario scenario = scenarioOf("accuracy", 10);
+  Config config;
+  config.parameters = scenario.parameters;
+  config.accelerometer_bias = false;
+  config.particles.particles = 20;
+  const auto estimator = makeEstimator("ss_srupf", config);
+  const auto recording = recordingOf(scenario, 6);
+  ins::Output output;
+  EXPECT_EQ(estimator->process(recording.imu.front(), output), ImuVerdict::OutOfOrder) << "not started";
+  estimator->start(recording.start, 0);
+  for (const auto& reading : recording.imu) estimator->process(reading, output);
+  EXPECT_EQ(output.solutions.size(), recording.imu.size());
+}
+
+TEST(SinsEstimator, ReportsLateReadingsAndThoseOfGps) {
+  const Scenario scenario = scenarioOf("accuracy", 3);
+  const auto recording = recordingOf(scenario, 7);
+  Config config;
+  config.parameters = scenario.parameters;
+  const auto estimator = makeEstimator("ss_srukf", config);
+  estimator->start(recording.start, 0);
+  ins::Output output;
+  for (std::size_t k = 0; k <= 200; ++k) estimator->process(recording.imu[k], output);
+  estimator->process(recording.aiding.front().reading, output);  // of the first second
+  ins::Aiding fix;
+  fix.stamp = stampFromSeconds(2.005);
+  fix.sensor = ins::Sensor::Gps;
+  estimator->process(fix, output);
+  output.clear();
+  estimator->process(recording.imu[201], output);
+  ASSERT_EQ(output.audits.size(), 2u);
+  EXPECT_EQ(output.audits[0].verdict, Verdict::Stale);
+  EXPECT_EQ(output.audits[1].verdict, Verdict::Invalid);
+}
+
+}  // namespace
+}  // namespace sas_motion::sins
