@@ -24,6 +24,7 @@
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/micronavigation.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
+#include "sas_motion/imaging/threads.hpp"
 #include "sas_motion/math/statistics.hpp"
 #include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 
@@ -144,14 +145,27 @@ struct RowErrors {
   }
 };
 
+/// Micronavigation from each ping to the next along the believed track, moved up or down to where the first of the two is: an altimeter tells how high.
+std::vector<imaging::Micronavigation> micronavigationOf(const Survey& survey, const std::vector<imaging::PingPose>& believed, std::uint64_t seed) {
+  const imaging::EchoLines lines = echoesOf(survey, seed);
+  imaging::MicronavigationOptions options;
+  options.starboard = true;
+  std::vector<imaging::Micronavigation> found(believed.size() - 1);
+  imaging::forEachTask(found.size(), kThreads, [&](std::size_t i) {
+    imaging::PingPose first = believed[i], second = believed[i + 1];
+    const double rise = survey.window.truth[i].position.z() - first.position.z();
+    first.position.z() += rise;
+    second.position.z() += rise;
+    found[i] = micronavigate(lines, i, survey.echoes.sonar, first, second, options);
+  });
+  return found;
+}
+
 /// What the echoes say along the believed track, beside the truth.
 std::vector<LabelledAiding> readingsOf(const Survey& survey, const ApertureTrack& believed, std::uint64_t seed) {
   const auto poses = believed.poses(survey.echoes.sonar.altitude);
   if (!poses) return {};
-  imaging::MicronavigationOptions options;
-  options.starboard = true;
-  options.threads = kThreads;
-  const auto found = micronavigate(echoesOf(survey, seed), survey.echoes.sonar, *poses, options);
+  const auto found = micronavigationOf(survey, *poses, seed);
   const imaging::Trajectory trajectory = believed.trajectory();
   std::vector<LabelledAiding> readings;
   std::array<RowErrors, 2> rows;
