@@ -49,6 +49,10 @@ if [ -x "$tools/backprojection_speed" ]; then
   "$tools/backprojection_speed" $((smoke == 1 ? 1 : 20))
   echo; echo "bench: micronavigation, errors beside its standard deviations"
   "$tools/micronavigation_accuracy" $((smoke == 1 ? 2 : 24))
+  echo; echo "bench: navigation, echoes and image in a loop"
+  size=(3 20 600)
+  [ "$smoke" = 0 ] || size=(1 8 150)
+  "$tools/closed_loop" "$root/config" "${size[@]}"
 fi
 
 echo; echo "bench: rts beside batch"

@@ -15,13 +15,6 @@ constexpr double kStartEvery = 1;  // [s]
 
 Geodetic geodeticOf(const NavigationState& state) { return {state.latitude / kRadPerDeg, state.longitude / kRadPerDeg, state.height}; }
 
-/// Body axes of navigation, starboard, forward, up, to those of imaging, forward, port, up. A survey is so short that east, north and up at the body are
-/// those at the middle of the aperture.
-TimedPose poseIn(const LocalFrame& map, Stamp stamp, const NavigationState& state) {
-  static const Eigen::Quaterniond q_body_forward(Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitZ()));
-  return {stamp, map.position_enu(geodeticOf(state)), state.q_nav_body * q_body_forward};
-}
-
 bool isStraight(const Trajectory& trajectory, double begin, double end) {
   for (double time = begin; time < end; time += kStartEvery)
     if (trajectory.at(time).turn_rate != 0) return false;
@@ -75,10 +68,10 @@ void ApertureTrack::add(Stamp stamp, const NavigationState& state) {
 }
 
 std::optional<std::vector<PingPose>> ApertureTrack::poses(double altitude) const {
-  const imaging::Trajectory trajectory(poses_map_);
+  const imaging::Trajectory gathered = trajectory();
   const Stamp end = aperture_->pings.back() + stampFromSeconds(aperture_->interval);
-  if (trajectory.firstGap(aperture_->pings.front(), end, longest_gap_)) return std::nullopt;
-  return aperturePoses(pingPoses(trajectory, aperture_->pings, aperture_->interval), aperture_->frame, altitude);
+  if (gathered.firstGap(aperture_->pings.front(), end, longest_gap_)) return std::nullopt;
+  return aperturePoses(pingPoses(gathered, aperture_->pings, aperture_->interval), aperture_->frame, altitude);
 }
 
 }  // namespace sas_motion::ins

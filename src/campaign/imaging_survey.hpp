@@ -8,6 +8,7 @@
 #include "sas_motion/imaging/focus_scene.hpp"
 #include "sas_motion/imaging/track_window.hpp"
 #include "sas_motion/navigation/local_frame.hpp"
+#include "sas_motion/pipeline/imaging_bridge.hpp"
 #include "sas_motion/pipeline/ins_estimator.hpp"
 #include "sas_motion/simulation/ins_simulator.hpp"
 
@@ -37,6 +38,8 @@ class ApertureTrack {
   void add(Stamp stamp, const NavigationState& state);
   /// The poses at the pings, in the frame of the aperture; nothing where solutions lie too far apart.
   std::optional<std::vector<imaging::PingPose>> poses(double altitude) const;
+  /// What was gathered, in the map of the aperture.
+  imaging::Trajectory trajectory() const { return imaging::Trajectory(poses_map_); }
 
  private:
   const Aperture* aperture_;

@@ -83,13 +83,6 @@ class ImagingSystem final : public System {
   Named<double> bound(std::size_t, const std::vector<std::uint64_t>&) const override { return {}; }
 
  private:
-  static Config configOf(const Scenario& scenario) {
-    Config config;
-    config.parameters = scenario.parameters;
-    config.imu.period = 1 / scenario.imu_rate;
-    return config;
-  }
-
   static imaging::FocusWindow windowOf(const Aperture& aperture) {
     const double duration = aperture.times.back(), length = (aperture.truth.back().position - aperture.truth.front().position).head<2>().norm();
     return {aperture.start, duration, length / duration, static_cast<double>(aperture.times.size() - 1) / duration, aperture.times.size(), aperture.frame};
@@ -118,24 +111,15 @@ class ImagingSystem final : public System {
 
   Estimate estimate(const std::string& name, const Scenario& scenario, const Recording& recording) const {
     Estimate result{emptyTracks(), "", 0};
+    const auto estimator = make_(name, configOf(scenario));
+    const double begin = cpuSeconds();
     Output output;
-    const auto gather = [&] {
+    replay(*estimator, recording, output, [&] {
       for (const auto& solution : output.solutions)
         for (auto& track : result.tracks) track.add(solution.stamp, solution.state);
       output.clear();
-    };
-    const auto estimator = make_(name, configOf(scenario));
-    const double begin = cpuSeconds();
-    estimator->start(recording.start, 0);
-    auto next = recording.aiding.begin();
-    for (const auto& reading : recording.imu) {
-      for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator->process(next->reading, output);
-      estimator->process(reading, output);
-      gather();
-    }
-    estimator->finish(output);
+    });
     result.seconds = cpuSeconds() - begin;
-    gather();
     result.failure = estimator->failure();
     return result;
   }

@@ -54,4 +54,23 @@ std::vector<Scenario> readInsCampaign(YamlSection& campaign, const std::string& 
   return scenarios;
 }
 
+Config configOf(const Scenario& scenario) {
+  Config config;
+  config.parameters = scenario.parameters;
+  config.imu.period = 1 / scenario.imu_rate;
+  return config;
+}
+
+void replay(Estimator& estimator, const Recording& recording, Output& output, const std::function<void()>& after) {
+  estimator.start(recording.start, 0);
+  auto next = recording.aiding.begin();
+  for (const auto& reading : recording.imu) {
+    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator.process(next->reading, output);
+    estimator.process(reading, output);
+    after();
+  }
+  estimator.finish(output);
+  after();
+}
+
 }  // namespace sas_motion

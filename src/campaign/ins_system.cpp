@@ -35,9 +35,7 @@ class RunScoring {
   std::vector<Scored> of(const std::vector<std::string>& names) const {
     std::vector<Scored> all;
     for (const auto& name : names) all.push_back({name, findSolution(name), Score(scenario_, skip_)});
-    Config config;
-    config.parameters = scenario_.parameters;
-    config.imu.period = 1 / scenario_.imu_rate;
+    const Config config = configOf(scenario_);
     for (const auto kind : kFilterKinds) {
       std::vector<Scored*> mine;
       for (auto& scored : all)
@@ -89,14 +87,8 @@ class RunScoring {
   /// An estimator that answers late, or at the end alone.
   void follow(Estimator& estimator, Scored& scored) const {
     Output output;
-    auto next = recording_.aiding.begin();
     const double begin = cpuSeconds();
-    estimator.start(recording_.start, 0);
-    for (const auto& reading : recording_.imu) {
-      for (; next != recording_.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator.process(next->reading, output);
-      estimator.process(reading, output);
-    }
-    estimator.finish(output);
+    replay(estimator, recording_, output, [] {});
     scored.microseconds = 1e6 * (cpuSeconds() - begin) / static_cast<double>(std::max<std::size_t>(1, recording_.aiding.size()));
     for (const auto& solution : output.solutions)
       if (const double time = secondsBetween(0, solution.stamp); isScored(time)) scored.score.add(trajectory_.at(time), solution);
