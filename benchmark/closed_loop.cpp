@@ -24,7 +24,7 @@
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/micronavigation.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
-#include "sas_motion/imaging/threads.hpp"
+#include "sas_motion/parallel/threads.hpp"
 #include "sas_motion/math/statistics.hpp"
 #include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 
