@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "campaign/imaging_measures.hpp"
@@ -88,7 +89,8 @@ Followed follow(const Survey& survey, const std::string& name, const Recording& 
   const auto estimator = makeAnyEstimator(name, configOf(survey.scenario));
   Output output;
   replay(*estimator, recording, output, [&] {
-    for (const auto& [stamp, state, moving, lying, covariance] : output.solutions) {
+    for (const auto& solution : output.solutions) {
+      const auto& [stamp, state] = std::tie(solution.stamp, solution.state);
       result.window.add(stamp, state);
       for (auto& track : result.apertures) track.add(stamp, state);
       if (stamp >= survey.window.pings.front() && stamp <= survey.window.pings.back())
@@ -151,7 +153,7 @@ std::vector<imaging::Micronavigation> micronavigationOf(const Survey& survey, co
   imaging::MicronavigationOptions options;
   options.starboard = true;
   std::vector<imaging::Micronavigation> found(believed.size() - 1);
-  imaging::forEachTask(found.size(), kThreads, [&](std::size_t i) {
+  forEachTask(found.size(), kThreads, [&](std::size_t i) {
     imaging::PingPose first = believed[i], second = believed[i + 1];
     const double rise = survey.window.truth[i].position.z() - first.position.z();
     first.position.z() += rise;
