@@ -45,7 +45,8 @@ def wait_for(condition, seconds=40):
 def start(folder, *arguments, **extra):
     """A front that runs beside the test."""
     return subprocess.Popen(front.command(folder, '-o', folder / 'out', '--no-report', *arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                            universal_newlines=True, env=front.environment(**extra))
+                            universal_newlines=True, env=front.environment(**extra),
+                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # which a shell's background jobs ignore
 
 
 def interrupted(folder):
