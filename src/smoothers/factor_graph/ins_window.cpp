@@ -92,12 +92,21 @@ void InsWindow::add(const InsChain::Stop& stop) {
     values_.insert(to, stop.start);
   }
   for (const auto& reading : stop.readings) {
+    if (reading.lever_body) place(reading.sensor, *reading.lever_body);
     Reading added{reading.stamp, reading.sensor, {}};
     for (int row = 0; row < rowsOf(reading.sensor); ++row)
       added.rows.push_back(boost::make_shared<AidingFactor>(places_.back().key, model_, reading, stop.rate_body, row, loss_));
     for (const auto& row : added.rows) graph_.push_back(row);
     places_.back().readings.push_back(added);
   }
+}
+
+void InsWindow::place(Sensor sensor, const Vector<3>& lever_body) {
+  Parameters parameters = model_->parameters();
+  if (leverOf(parameters, sensor) == lever_body) return;
+  ErrorModel placed = *model_;
+  placed.place(sensor, lever_body);
+  model_ = std::make_shared<const ErrorModel>(placed);
 }
 
 std::string InsWindow::solve(int max_iterations, double tolerance) {

@@ -93,6 +93,22 @@ TEST(InsSmoother, FixedLagLiesBetweenFilterAndBatchAndPutsOutAsItGoes) {
   EXPECT_LT(batch, lag);
 }
 
+TEST(InsSmoother, LearnsLeverArmsFromReadings) {
+  // GIVEN a run whose configuration knows the lever arms, and one whose readings bring them
+  const Scenario scenario = surveyOf(40);
+  Recording recording = recordingOf(scenario, 3);
+  const Output told = outputOf("batch", scenario, recording);
+  Scenario untold = scenario;
+  Parameters levers = scenario.parameters;
+  for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth}) leverOf(untold.parameters, sensor).setZero();
+  for (auto& labelled : recording.aiding) labelled.reading.lever_body = leverOf(levers, labelled.reading.sensor);
+  const Output learned = outputOf("batch", untold, recording);
+  // THEN they agree, height included
+  ASSERT_EQ(told.solutions.size(), learned.solutions.size());
+  for (std::size_t k = 0; k < told.solutions.size(); k += 100)
+    EXPECT_LT(displacement(told.solutions[k].state, learned.solutions[k].state).norm(), 1e-6) << k;
+}
+
 TEST(InsSmoother, BatchBeatsTheFilterAlsoWithOutliers) {
   for (const bool bad : {false, true}) {
     double filter = 0, batch = 0;

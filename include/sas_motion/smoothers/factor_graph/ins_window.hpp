@@ -60,6 +60,9 @@ class InsWindow {
     Matrix<9> covariance = Matrix<9>::Zero();
   };
 
+  /// Where a sensor is from now on; factors that stand keep what they were told.
+  void place(Sensor sensor, const Vector<3>& lever_body);
+
   ModelPtr model_;
   Loss loss_;
   gtsam::NonlinearFactorGraph graph_;
