@@ -60,7 +60,9 @@ Calibrator::Calibrator(const std::string& filter, const Config& config)
   belief_ = CubatureFilter::Belief(filterPart(config.prior.mean, covariance));
 }
 
-Vector<kChannels> Calibrator::noiseFactor() const { return options_.adaptive ? belief_.noise.factor(options_.trend) : Vector<kChannels>(Vector<kChannels>::Ones()); }
+Vector<kChannels> Calibrator::noiseFactor() const {
+  return options_.adaptive ? belief_.noise.factor(options_.trend) : Vector<kChannels>(Vector<kChannels>::Ones());
+}
 
 Calibrator::Report Calibrator::process(const Ping& raw) {
   Report report;

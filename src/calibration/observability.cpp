@@ -12,7 +12,7 @@
 namespace sas_motion::usbl {
 namespace {
 
-constexpr double kWellKnown = 0.2;  // of the prior's standard deviation: what is known no better rests on the prior
+constexpr double kWellKnown = 0.2;   // of the prior's standard deviation: what is known no better rests on the prior
 constexpr double kNoticeable = 0.3;  // a component of the weak direction that is worth naming
 
 const char* plainName(int unknown) {
@@ -44,8 +44,10 @@ std::string verdictOf(const Observability& result) {
   if (result.observable) return "every unknown is seen";
   const std::string what = weakUnknowns(result);
   const bool several = what.find(" and ") != std::string::npos;
-  return fmt::format("not observable: {} pings on this track cannot {} {}; what is given for {} rests on the prior; sail a figure-eight over the transponder, crossing lines or a circle beside it",
-                     result.pings, several ? "separate" : "tell", what, several ? "them" : "it");
+  return fmt::format(
+      "not observable: {} pings on this track cannot {} {}; what is given for {} rests on the prior; sail a figure-eight over the transponder, crossing lines "
+      "or a circle beside it",
+      result.pings, several ? "separate" : "tell", what, several ? "them" : "it");
 }
 
 /// What the pings tell of mounting and lever arm, in units of their prior's standard deviations. The prior of the other unknowns is no guess
@@ -71,7 +73,8 @@ Observability observability(const Matrix<kUnknowns>& data, const Prior& prior, s
   const Matrix<kStates> known = knownOfMounting(data, prior);
   Eigen::MatrixXd scaled(n, n);
   for (Eigen::Index row = 0; row < n; ++row)
-    for (Eigen::Index col = 0; col < n; ++col) scaled(row, col) = known(result.unknowns[static_cast<std::size_t>(row)], result.unknowns[static_cast<std::size_t>(col)]);
+    for (Eigen::Index col = 0; col < n; ++col)
+      scaled(row, col) = known(result.unknowns[static_cast<std::size_t>(row)], result.unknowns[static_cast<std::size_t>(col)]);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   for (Eigen::Index i = n - 1; i >= 0; --i) result.singular_values.push_back(std::max(0.0, eigen.eigenvalues()(i)));
   const Eigen::VectorXd weak = eigen.eigenvectors().col(0).cwiseProduct(scaled.diagonal().cwiseMax(1e-12).cwiseSqrt()).normalized();

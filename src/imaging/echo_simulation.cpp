@@ -8,8 +8,8 @@
 
 #include "sas_motion/imaging/chirp.hpp"
 #include "sas_motion/imaging/interpolator.hpp"
-#include "sas_motion/parallel/threads.hpp"
 #include "sas_motion/math/random.hpp"
+#include "sas_motion/parallel/threads.hpp"
 
 namespace sas_motion::imaging {
 namespace {

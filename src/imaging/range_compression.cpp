@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "sas_motion/imaging/chirp.hpp"
-#include "sas_motion/parallel/threads.hpp"
 #include "sas_motion/math/angles.hpp"
+#include "sas_motion/parallel/threads.hpp"
 
 namespace sas_motion::imaging {
 namespace {

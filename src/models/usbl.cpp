@@ -82,8 +82,7 @@ const std::vector<std::string>& modeNames() {
 Mode modeFromName(const std::string& name) {
   const auto& names = modeNames();
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw std::invalid_argument("'" + name + "' is no mode; take direction_angles, direction_cosines, azimuth_elevation or azimuth");
+  if (found == names.end()) throw std::invalid_argument("'" + name + "' is no mode; take direction_angles, direction_cosines, azimuth_elevation or azimuth");
   return static_cast<Mode>(found - names.begin());
 }
 
@@ -91,9 +90,7 @@ const std::string& modeName(Mode mode) { return modeNames()[static_cast<std::siz
 
 Matrix<3> mountingRotation(const Vector<3>& angles) { return rotationOf({angles(kMountingX), angles(kMountingY), angles(kMountingZ)}); }
 
-Vector<3> transponderInArray(const Unknowns& x, const Ping& ping) {
-  return mountingRotation(x.head<3>()).transpose() * transponderFromArrayBody(x, ping);
-}
+Vector<3> transponderInArray(const Unknowns& x, const Ping& ping) { return mountingRotation(x.head<3>()).transpose() * transponderFromArrayBody(x, ping); }
 
 Vector<kChannels> Model::predict(const Unknowns& x, const Ping& ping) const {
   const Vector<3> p = transponderInArray(x, ping);

@@ -39,8 +39,7 @@ CalibrationResult calibrate(const Options& options) {
     result.recording = UsblRecording::read(options.bag, result.settings, [&](double passed) { progress.advance(passed); });
   }
   Progress progress("calibrate", static_cast<double>(options.estimators.size()), 0);
-  result.comparison =
-      usbl::compare(result.recording.pings, result.settings.calibration, options.estimators, usbl::makeFitter, [&] { progress.advance(1); });
+  result.comparison = usbl::compare(result.recording.pings, result.settings.calibration, options.estimators, usbl::makeFitter, [&] { progress.advance(1); });
   if (!result.comparison.failure.empty()) throw std::runtime_error(fmt::format("{}: {}", options.bag, result.comparison.failure));
   return result;
 }

@@ -13,7 +13,6 @@ namespace {
 using testing::law;
 using Kind = NoiseLaw::Kind;
 
-
 /// Sum of probabilities, mean and variance of a row's terms.
 Vector<3> moments(const std::vector<NoiseTerm>& terms) {
   Vector<3> sum = Vector<3>::Zero();

@@ -118,8 +118,11 @@ TEST(AdaptiveCubatureFilter, LearnsTheScaleOfTheNoise) {
 
 TEST(AdaptiveCubatureFilter, UnderOutliersEachIncrementLearnsWhatTheoryHasOfIt) {
   // standard deviation over the good one's, one reading in ten ten times too wide
-  const std::vector<std::pair<NoiseIncrement, double>> expected{
-      {NoiseIncrement::Raw, 3.30}, {NoiseIncrement::Weighted, 1.61}, {NoiseIncrement::Pseudo, 0.757}, {NoiseIncrement::Consistent, 1.147}, {NoiseIncrement::Mixture, 1.0}};
+  const std::vector<std::pair<NoiseIncrement, double>> expected{{NoiseIncrement::Raw, 3.30},
+                                                                {NoiseIncrement::Weighted, 1.61},
+                                                                {NoiseIncrement::Pseudo, 0.757},
+                                                                {NoiseIncrement::Consistent, 1.147},
+                                                                {NoiseIncrement::Mixture, 1.0}};
   for (const auto& [increment, sigma] : expected) {
     auto options = huber();
     options.increment = increment;

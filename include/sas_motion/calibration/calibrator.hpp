@@ -18,12 +18,12 @@ using CubatureFilter = AdaptiveCubatureFilter<kStates, kChannels>;
 struct Config {
   Mode mode = Mode::DirectionAngles;
   Prior prior;
-  FitOptions fit;              ///< of batch, and of the filters' start
+  FitOptions fit;               ///< of batch, and of the filters' start
   State drift = State::Zero();  ///< standard deviation of the state's change from ping to ping [rad, m]
-  double start_window = 60;    ///< filters begin with a robust fit of the pings of this long; 0: with the prior [s]
-  double check_window = 300;   ///< a fit of the pings of this long says whether a filter has locked in; 0: none does [s]
+  double start_window = 60;     ///< filters begin with a robust fit of the pings of this long; 0: with the prior [s]
+  double check_window = 300;    ///< a fit of the pings of this long says whether a filter has locked in; 0: none does [s]
   Loss huber{LossKind::Huber};
-  double student_t_nu = 3;     ///< degrees of freedom of student_t_vbckf [-]
+  double student_t_nu = 3;           ///< degrees of freedom of student_t_vbckf [-]
   double correntropy_bandwidth = 2;  ///< of mc_vbckf [-]
   AdaptiveCubatureOptions cubature;  ///< what all filters have in common
 };

@@ -26,8 +26,8 @@ struct Prior {
 struct Problem {
   Model model;
   Prior prior;
-  std::vector<Ping> pings;                                        ///< with readings in the model's mode
-  Vector<kChannels> scale = Vector<kChannels>::Ones();            ///< of each channel's noise over its stated standard deviation
+  std::vector<Ping> pings;                              ///< with readings in the model's mode
+  Vector<kChannels> scale = Vector<kChannels>::Ones();  ///< of each channel's noise over its stated standard deviation
 };
 
 /// (z - h(x)) / (scale sigma) of a ping; 0 where the channel is absent.

@@ -16,8 +16,8 @@ struct BackprojectionOptions {
 };
 
 /// Time-domain backprojection of range-compressed lines: I(p) = sum over lines of s(L(p)) exp(+j 2 pi f0 L(p) / c), with the exact path L(p).
-/// Lines whose path is not finite are left out. In float about tile centres in double, on the widest vectors of this machine; the same bits for any number of threads.
-/// The work space does not grow with the number of lines. Throws std::invalid_argument for a bad grid, or one that needs more than memory_limit.
+/// Lines whose path is not finite are left out. In float about tile centres in double, on the widest vectors of this machine; the same bits for any number of
+/// threads. The work space does not grow with the number of lines. Throws std::invalid_argument for a bad grid, or one that needs more than memory_limit.
 Image backproject(const EchoLines& lines, const ImageGrid& grid, const BackprojectionOptions& options);
 
 /// The same in double, pixel by pixel: the yardstick.

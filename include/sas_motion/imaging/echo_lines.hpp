@@ -11,11 +11,11 @@ namespace sas_motion::imaging {
 
 /// What the receivers heard, as complex baseband: an echo by a path of length L has the phase exp(-j 2 pi f0 L / c). One line a path.
 struct EchoLines {
-  double carrier = 0;      ///< f0 [Hz]
-  double sound_speed = 0;  ///< c [m/s]
-  double sample_rate = 0;  ///< [Hz]
-  double first_delay = 0;  ///< of sample 0 after transmission [s]
-  int samples = 0;         ///< in a line
+  double carrier = 0;        ///< f0 [Hz]
+  double sound_speed = 0;    ///< c [m/s]
+  double sample_rate = 0;    ///< [Hz]
+  double first_delay = 0;    ///< of sample 0 after transmission [s]
+  int samples = 0;           ///< in a line
   std::size_t left_out = 0;  ///< lines that are zero because an echo in them was not finite
   std::vector<EchoPath> paths;
   std::vector<std::complex<float>> data;  ///< lines x samples

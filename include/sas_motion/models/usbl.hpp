@@ -64,9 +64,9 @@ struct Reading {
 /// One reply of the transponder, and where the vessel was.
 struct Ping {
   Stamp stamp = 0;
-  Matrix<3> C_body_map = Matrix<3>::Identity();     ///< v_body = C v_map
-  Vector<3> transponder_map = Vector<3>::Zero();    ///< the surveyed transponder from the reference point; east, north, up [m]
-  Reading reading;                                  ///< of direction angles
+  Matrix<3> C_body_map = Matrix<3>::Identity();   ///< v_body = C v_map
+  Vector<3> transponder_map = Vector<3>::Zero();  ///< the surveyed transponder from the reference point; east, north, up [m]
+  Reading reading;                                ///< of direction angles
 };
 
 /// The measurement model h: one for filters, smoothers and simulation. [ZhangTao, eq 6 to 9]

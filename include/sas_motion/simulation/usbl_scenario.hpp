@@ -38,16 +38,16 @@ struct Scenario {
   Vector<3> transponder_map{-100, 200, -100};         ///< as surveyed; east, north, up of the datum [m]
   Vector<3> gnss_lever_arm_body = Vector<3>::Zero();  ///< antenna from the reference point; starboard, forward, up [m]
 
-  double ping_rate = 1;                         ///< [1/s]
-  double range_sigma = 0.2;                     ///< [m]
-  double direction_sigma = 0.2 * kRadPerDeg;    ///< [rad]
-  double stated_factor = 1;                     ///< variance that messages state, over the true one
-  std::array<NoiseMix, kChannels> noise;        ///< by channel
-  double gnss_rate = 5;                         ///< [1/s]
+  double ping_rate = 1;                            ///< [1/s]
+  double range_sigma = 0.2;                        ///< [m]
+  double direction_sigma = 0.2 * kRadPerDeg;       ///< [rad]
+  double stated_factor = 1;                        ///< variance that messages state, over the true one
+  std::array<NoiseMix, kChannels> noise;           ///< by channel
+  double gnss_rate = 5;                            ///< [1/s]
   double gnss_sigma = 0.02, gnss_sigma_up = 0.04;  ///< [m]
-  double attitude_rate = 20;                    ///< [1/s]
-  double attitude_sigma = 0.01 * kRadPerDeg;    ///< pitch and roll [rad]
-  double heading_sigma = 0.03 * kRadPerDeg;     ///< [rad]
+  double attitude_rate = 20;                       ///< [1/s]
+  double attitude_sigma = 0.01 * kRadPerDeg;       ///< pitch and roll [rad]
+  double heading_sigma = 0.03 * kRadPerDeg;        ///< [rad]
 
   static Unknowns defaultTruth();
   /// Throws ConfigError.

@@ -37,8 +37,8 @@ class Vessel {
   void followWaypoints(double time);
 
   Scenario scenario_;
-  Pose pose_;           // of waypoints
-  double sailed_ = 0;   // time up to which waypoints have been followed [s]
+  Pose pose_;          // of waypoints
+  double sailed_ = 0;  // time up to which waypoints have been followed [s]
   std::size_t next_ = 1;
 };
 
@@ -50,8 +50,8 @@ class Simulator {
 
   /// What the array hears at a true pose; nothing where the reply is lost. Times must rise.
   std::optional<LabelledPing> ping(double time, const Pose& truth);
-  Pose measuredAttitude(const Pose& truth);       ///< with the attitude's noise
-  Vector<3> measuredAntenna(const Pose& truth);   ///< the GNSS antenna's position with its noise; map [m]
+  Pose measuredAttitude(const Pose& truth);      ///< with the attitude's noise
+  Vector<3> measuredAntenna(const Pose& truth);  ///< the GNSS antenna's position with its noise; map [m]
 
   const LocalFrame& frame() const { return frame_; }
   const Geodetic& transponder() const { return transponder_; }  ///< as surveyed

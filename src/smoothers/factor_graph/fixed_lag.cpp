@@ -15,7 +15,7 @@
 namespace sas_motion::towfish {
 namespace {
 
-constexpr double kMargin = 1;            // GTSAM's window is this much longer, so that a node is put out before it is marginalised [s]
+constexpr double kMargin = 1;  // GTSAM's window is this much longer, so that a node is put out before it is marginalised [s]
 
 gtsam::ISAM2Params isamParameters() {
   gtsam::ISAM2Params params;
@@ -110,10 +110,7 @@ struct FixedLagSmoother::Window {
 };
 
 FixedLagSmoother::FixedLagSmoother(const Config& config)
-    : config_(config),
-      clock_(config.max_gap, config.fixed_lag.reorder),
-      start_window_(config.start.window),
-      window_(std::make_unique<Window>(config)) {}
+    : config_(config), clock_(config.max_gap, config.fixed_lag.reorder), start_window_(config.start.window), window_(std::make_unique<Window>(config)) {}
 FixedLagSmoother::~FixedLagSmoother() = default;
 
 void FixedLagSmoother::process(const Measurement& z, Output& output) {

@@ -65,7 +65,8 @@ Fit solveFactorGraph(const Problem& problem, const FitOptions& options, const Un
   Fit fit = guarded(beginning(problem, start), [&](Factorization factorization) {
     Fit found = beginning(problem, start);
     const auto graph = buildGraph(problem, options.loss, start);
-    gtsam::LevenbergMarquardtOptimizer optimizer(graph, valuesFrom(problem.prior, start), levenbergMarquardt(options.max_iterations, options.tolerance, factorization));
+    gtsam::LevenbergMarquardtOptimizer optimizer(graph, valuesFrom(problem.prior, start),
+                                                 levenbergMarquardt(options.max_iterations, options.tolerance, factorization));
     found.x = unknownsFrom(optimizer.optimize(), start);
     found.cost = optimizer.error();
     found.iterations = static_cast<int>(optimizer.iterations());

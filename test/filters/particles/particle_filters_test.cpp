@@ -279,7 +279,8 @@ TEST(ParticleFilters, RecoverFromNumbersThatAreNone) {
   const auto narrow = [](auto& filter) { return filter.start({}, 0.1 * Matrix<2>::Identity()); };  // Gaussians that do not all reach where numbers end
   expectItRecovers(ParticleFilter<2>(options(400)), whole);
   expectItRecovers(upf<2>(options(100)), narrow);
-  for (const auto weighting : {Weighting::Mixture, Weighting::OptimalProposal, Weighting::Literal}) expectItRecovers(ssSrupf<2>(options(100), weighting), narrow);
+  for (const auto weighting : {Weighting::Mixture, Weighting::OptimalProposal, Weighting::Literal})
+    expectItRecovers(ssSrupf<2>(options(100), weighting), narrow);
 }
 
 TEST(ParticleFilters, RedescendingLossStandsOutliers) {
