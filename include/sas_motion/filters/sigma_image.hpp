@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sas_motion/filters/sigma_points.hpp"
+#include "sas_motion/filters/update.hpp"
 
 namespace sas_motion {
 
@@ -35,6 +36,19 @@ SigmaImage<N, M, Count> imageOf(const SigmaPoints<N, Count>& points, const Vecto
   SigmaImage<N, M, Count> image{dX, reference + offsets * points.mean_weights, {}};
   for (int i = 0; i < Count; ++i) image.deviations.col(i) = difference(Vector<M>(landed.col(i)), image.mean);
   return image;
+}
+
+/// The belief after reading z = h(x) + v by a filter that projects the prior's points and conditions on where they land. The innovation is z less
+/// the mean of h over the prior, not h of its mean; `noise` is what the filter's condition() takes.
+template <int M, class Filter, class Function, class Difference>
+Update<typename Filter::Belief, M> projectAndCondition(const Filter& filter, const typename Filter::Belief& prior, const Vector<M>& z, const Function& h,
+                                                       const Matrix<M>& noise, const Difference& difference) {
+  if (const auto image = filter.template project<M>(prior, h, difference))
+    return filter.template condition<M>(prior, *image, difference(z, image->mean), noise);
+  Update<typename Filter::Belief, M> result;
+  result.belief = prior;
+  result.verdict = Verdict::Invalid;
+  return result;
 }
 
 }  // namespace sas_motion

@@ -71,11 +71,7 @@ class SigmaPointFilter {
   /// The belief after reading z = h(x) + v, v ~ N(0, R). The innovation is z less the mean of h over the prior, not h of its mean.
   template <int M, class Function, class Difference = PlainDifference>
   Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) const {
-    if (const auto image = project<M>(prior, h, difference)) return condition<M>(prior, *image, difference(z, image->mean), R);
-    Update<Belief, M> result;
-    result.belief = prior;
-    result.verdict = Verdict::Invalid;
-    return result;
+    return projectAndCondition<M>(*this, prior, z, h, R, difference);
   }
 
   /// The weighted sum of products a b^T over the points.

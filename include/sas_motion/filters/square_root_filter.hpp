@@ -78,11 +78,7 @@ class SquareRootFilter {
   /// The belief after reading z = h(x) + v, v ~ N(0, R_root R_root^T).
   template <int M, class Function, class Difference = PlainDifference>
   Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R_root, const Difference& difference = {}) const {
-    if (const auto image = project<M>(prior, h, difference)) return condition<M>(prior, *image, difference(z, image->mean), R_root);
-    Update<Belief, M> result;
-    result.belief = prior;
-    result.verdict = Verdict::Invalid;
-    return result;
+    return projectAndCondition<M>(*this, prior, z, h, R_root, difference);
   }
 
   /// The weighted sum of products a b^T over the points.
