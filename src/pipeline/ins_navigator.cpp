@@ -46,7 +46,7 @@ Navigator<Filter>::Navigator(const Filter& filter, const Parameters& parameters,
       ins_(start, stamp, options.imu),
       belief_(model_.start()),
       reckoned_(start),
-      smooth_(start) {}
+      smooth_(start, options.smooth) {}
 
 template <class Filter>
 ImuStep Navigator<Filter>::add(const ImuReading& reading) {
@@ -74,7 +74,6 @@ ImuStep Navigator<Filter>::add(const ImuReading& reading) {
 template <class Filter>
 void Navigator<Filter>::advance(const ImuReading& reading, Stamp stamp) {
   const double dt = secondsBetween(ins_.stamp(), stamp);
-  const NavigationState before = ins_.state();
   ins_.advance(reading, stamp);
   if (!(dt > 0)) return;
   const NavigationState& state = ins_.state();
@@ -84,10 +83,8 @@ void Navigator<Filter>::advance(const ImuReading& reading, Stamp stamp) {
   velocity_sum_ += dt * state.velocity_nav;
   C_sum_ += dt * C;
   displace(reckoned_, dt * (velocity_body_ ? Vector<3>(C * *velocity_body_) : state.velocity_nav));
-  const Vector<3> fused_step = displacement(before, state) - dt * belief_.mean.template head<3>();
-  displace(smooth_, fused_step + dt * lag_ + dt / options_.smooth_position_time * displacement(smooth_, fused()));
-  lag_ *= std::exp(-dt / options_.smooth_velocity_time);
   if (since_ > options_.step - 1e-9 || gap_ > 0) predict();
+  smooth_.move(fused(), dt);
   if (gap_ > 0) widenForGap(dt);
 }
 
@@ -110,7 +107,6 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
   const auto update = [&](auto z) {
     if (reading.variance) z.R = reading.variance->head(z.R.rows()).asDiagonal();
     const auto result = filter_.update(belief_, z);
-    lag_ += (result.belief.mean - belief_.mean).template head<3>();  // the fused velocity jumps by the opposite
     belief_ = result.belief;
     audits_.push_back(auditOf(reading, result));
   };
@@ -131,6 +127,7 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
     case Sensor::Depth: update(model_.depth(ins, reading.fix.height, belief_.mean)); break;
     case Sensor::Dpc: update(model_.dpc(ins, ins_.rate_body(), reading.array, belief_.mean)); break;
   }
+  smooth_.jump(fused());
   if (options_.feedback) feedBack();
 }
 
@@ -140,16 +137,6 @@ NavigationState Navigator<Filter>::dvl() const {
   displace(state, -belief_.mean.template segment<3>(kDvlPosition));
   state.q_nav_body = fused().q_nav_body;
   if (velocity_body_) state.velocity_nav = state.q_nav_body * (*velocity_body_ - belief_.mean.template segment<3>(kDvlVelocity));
-  return state;
-}
-
-template <class Filter>
-NavigationState Navigator<Filter>::smooth() const {
-  NavigationState state = fused();
-  state.latitude = smooth_.latitude;
-  state.longitude = smooth_.longitude;
-  state.height = smooth_.height;
-  state.velocity_nav += lag_;
   return state;
 }
 

@@ -9,6 +9,7 @@
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/models/ins_gps_dvl.hpp"
+#include "sas_motion/pipeline/smooth_track.hpp"
 
 namespace sas_motion::ins {
 
@@ -29,14 +30,14 @@ struct Audit {
   Vector<3> innovation = Vector<3>::Zero();  ///< what the INS says minus the reading, less the errors that are known of both
   Matrix<3> S = Matrix<3>::Zero();           ///< its covariance, before any weighting
   int iterations = 0;
-  const char* reason = "";  ///< plain words, a literal; empty where there is nothing to say
+  const char* reason = "";    ///< plain words, a literal; empty where there is nothing to say
   double effective_size = 0;  ///< of a filter's particles, where it has some
 };
 
 struct NavigatorOptions {
   bool feedback = true;
-  double step = 0.2;                                              ///< longest time of one prediction of the filter [s]
-  double smooth_velocity_time = 30, smooth_position_time = 3000;  ///< in which the smooth solution follows the fused one [s]
+  double step = 0.2;  ///< longest time of one prediction of the filter [s]
+  SmoothTrack::Options smooth;
   Mechanisation::Options imu;
   double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
 };
@@ -72,9 +73,8 @@ class Navigator {
   };
   const std::optional<Fix>& gps() const { return gps_; }
   NavigationState dvl() const;
-  /// For imaging: what the INS measures, integrated, which follows the fused velocity and position slowly, so that no fix makes it jump or
-  /// bend within an aperture.
-  NavigationState smooth() const;
+  /// For imaging: without the jumps of readings.
+  NavigationState smooth() const { return smooth_.state(); }
   const Gaussian<kStates>& belief() const { return belief_; }  ///< errors of the INS as it stands
   const ErrorModel& model() const { return model_; }
 
@@ -98,8 +98,7 @@ class Navigator {
   Vector<3> force_sum_ = Vector<3>::Zero(), velocity_sum_ = Vector<3>::Zero();
   Matrix<3> C_sum_ = Matrix<3>::Zero();
   NavigationState reckoned_;  // by the DVL, with its errors
-  NavigationState smooth_;
-  Vector<3> lag_ = Vector<3>::Zero();       // velocity of the smooth solution minus the fused one
+  SmoothTrack smooth_;
   std::optional<Vector<3>> velocity_body_;  // of the INS, by the DVL's last reading
   std::optional<Fix> gps_;
 };
