@@ -11,6 +11,7 @@
 #include "sas_motion/ros/estimate_messages.hpp"
 #include "sas_motion/ros/ins_ingest.hpp"
 #include "sas_motion/ros/ins_remarks.hpp"
+#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -70,7 +71,7 @@ class InsRun final : public BagRun {
       : settings_(settings),
         file_(file),
         topics_(std::move(topics)),
-        session_(settings.estimation.session, estimators, makeInsEstimator),
+        session_(settings.estimation.session, estimators, ins::makeAnyEstimator),
         ingest_(settings, out.transforms, [this](const ins::Reading& reading) { session_.process(reading); }) {
     for (const auto& name : estimators) writers_.push_back(std::make_unique<Writer>(name, settings, out));
   }
@@ -134,8 +135,8 @@ class InsSystem final : public ReprocessSystem {
   explicit InsSystem(const std::string& config) : settings_(InsSettings::fromFile(config)) {}
 
   void require(const std::string& estimator) const override {
-    if (!makeInsEstimator(estimator, settings_.estimation.session.config))
-      throw std::runtime_error(fmt::format("'{}' is no estimator of INS, GPS and DVL; known are {}", estimator, fmt::join(insEstimatorNames(), ", ")));
+    if (!ins::makeAnyEstimator(estimator, settings_.estimation.session.config))
+      throw std::runtime_error(fmt::format("'{}' is no estimator of INS, GPS and DVL; known are {}", estimator, fmt::join(ins::anyEstimatorNames(), ", ")));
   }
   std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file, const std::vector<std::string>& estimators,
                                 const RunOutput& out) const override {

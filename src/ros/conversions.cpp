@@ -205,43 +205,30 @@ geometry_msgs::TwistWithCovarianceStamped currentOf(const Estimate& estimate, co
 sensor_msgs::NavSatFix fixOf(const Estimate& estimate, const LocalFrame& frame, const Settings& settings) {
   const StateVector& x = estimate.belief.mean;
   const StateMatrix& P = estimate.belief.covariance;
-  const Geodetic point = frame.geodetic({x(kEast), x(kNorth), 0});
-  sensor_msgs::NavSatFix fix;
-  fix.header.stamp = timeOf(estimate.stamp);
-  fix.header.frame_id = settings.base_frame;
-  fix.latitude = point.latitude_deg;
-  fix.longitude = point.longitude_deg;
-  fix.altitude = point.altitude;
+  sensor_msgs::NavSatFix fix = fixAt(frame.geodetic({x(kEast), x(kNorth), 0}), timeOf(estimate.stamp), settings.base_frame);
   fix.position_covariance = {P(kEast, kEast), P(kEast, kNorth), 0, P(kEast, kNorth), P(kNorth, kNorth), 0, 0, 0, kUnknown};
   fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_KNOWN;
   return fix;
 }
 
 sas_motion::FilterUpdate updateOf(const Audit& audit) {
-  sas_motion::FilterUpdate update;
-  update.header.stamp = timeOf(audit.stamp);
-  update.sensor = towfish::sensorName(audit.sensor);
-  const auto rows = static_cast<std::size_t>(audit.rows);
-  update.innovation.assign(audit.innovation.data(), audit.innovation.data() + rows);
-  update.weights.assign(audit.weights.data(), audit.weights.data() + rows);
-  for (int row = 0; row < audit.rows; ++row)
-    for (int col = 0; col < audit.rows; ++col) update.innovation_covariance.push_back(audit.S(row, col));
-  update.nis = audit.nis;
-  update.verdict = static_cast<std::uint8_t>(audit.verdict);
-  update.reason = audit.reason;
-  update.iterations = static_cast<std::uint32_t>(audit.iterations);
+  auto update = filterUpdateOf(audit, towfish::sensorName(audit.sensor), audit.rows);
   if (audit.hypotheses[0] > 0) update.hypotheses.assign(audit.hypotheses.begin(), audit.hypotheses.end());
   return update;
 }
 
-sensor_msgs::NavSatFix datumOf(const LocalFrame& frame, const MapSettings& settings, ros::Time stamp) {
+sensor_msgs::NavSatFix fixAt(const Geodetic& place, ros::Time stamp, const std::string& frame_id) {
   sensor_msgs::NavSatFix fix;
   fix.header.stamp = stamp;
-  fix.header.frame_id = settings.map_frame;
-  fix.latitude = frame.datum().latitude_deg;
-  fix.longitude = frame.datum().longitude_deg;
-  fix.altitude = frame.datum().altitude;
+  fix.header.frame_id = frame_id;
+  fix.latitude = place.latitude_deg;
+  fix.longitude = place.longitude_deg;
+  fix.altitude = place.altitude;
   return fix;
+}
+
+sensor_msgs::NavSatFix datumOf(const LocalFrame& frame, const MapSettings& settings, ros::Time stamp) {
+  return fixAt(frame.datum(), stamp, settings.map_frame);
 }
 
 }  // namespace sas_motion::ros_side

@@ -144,13 +144,7 @@ nav_msgs::Odometry odometryOf(const Solution& solution, const LocalFrame& frame,
 }
 
 sensor_msgs::NavSatFix fixOf(const Solution& solution, const InsSettings& settings) {
-  const Geodetic point = geodeticOf(solution.state);
-  sensor_msgs::NavSatFix fix;
-  fix.header.stamp = timeOf(solution.stamp);
-  fix.header.frame_id = settings.base_frame;
-  fix.latitude = point.latitude_deg;
-  fix.longitude = point.longitude_deg;
-  fix.altitude = point.altitude;
+  sensor_msgs::NavSatFix fix = fixAt(geodeticOf(solution.state), timeOf(solution.stamp), settings.base_frame);
   if (!solution.covariance) return fix;
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 3; ++col)
@@ -159,20 +153,6 @@ sensor_msgs::NavSatFix fixOf(const Solution& solution, const InsSettings& settin
   return fix;
 }
 
-sas_motion::FilterUpdate updateOf(const ins::Audit& audit) {
-  sas_motion::FilterUpdate update;
-  update.header.stamp = timeOf(audit.stamp);
-  update.sensor = sensorName(audit.sensor);
-  const auto rows = static_cast<std::size_t>(rowsOf(audit.sensor));
-  update.innovation.assign(audit.innovation.data(), audit.innovation.data() + rows);
-  update.weights.assign(audit.weights.data(), audit.weights.data() + rows);
-  for (int row = 0; row < rowsOf(audit.sensor); ++row)
-    for (int col = 0; col < rowsOf(audit.sensor); ++col) update.innovation_covariance.push_back(audit.S(row, col));
-  update.nis = audit.nis;
-  update.verdict = static_cast<std::uint8_t>(audit.verdict);
-  update.reason = audit.reason;
-  update.iterations = static_cast<std::uint32_t>(audit.iterations);
-  return update;
-}
+sas_motion::FilterUpdate updateOf(const ins::Audit& audit) { return filterUpdateOf(audit, sensorName(audit.sensor), rowsOf(audit.sensor)); }
 
 }  // namespace sas_motion::ros_side

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sas_motion/ros/ins_remarks.hpp"
+#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -20,8 +21,8 @@ InsServer::InsServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : 
   readParameter(own_, "idle_timeout", idle_timeout_);
   readParameter(own_, "estimators", names_);
   for (const auto& name : names_) {
-    if (!makeInsEstimator(name, settings_.estimation.session.config))
-      throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name, fmt::join(insEstimatorNames(), ", ")));
+    if (!ins::makeAnyEstimator(name, settings_.estimation.session.config))
+      throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name, fmt::join(ins::anyEstimatorNames(), ", ")));
     if (std::count(names_.begin(), names_.end(), name) > 1) throw ConfigError(fmt::format("~estimators: '{}' is there twice; name each once", name));
     const OutputRate rate(settings_.estimation.output_rate);
     lanes_.push_back({name,
@@ -58,7 +59,7 @@ void InsServer::subscribe(const std::string& topic) {
 }
 
 void InsServer::startAnew() {
-  session_ = std::make_unique<ins::LiveSession>(settings_.estimation.session, names_, makeInsEstimator);
+  session_ = std::make_unique<ins::LiveSession>(settings_.estimation.session, names_, ins::makeAnyEstimator);
   auto fresh = std::make_unique<InsIngest>(settings_, transforms_, [this](const ins::Reading& reading) { session_->process(reading); });
   if (ingest_) {
     if (ingest_->frame()) fresh->setDatum(ingest_->frame()->datum());
@@ -171,12 +172,8 @@ bool InsServer::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response
 }
 
 bool InsServer::onEnableSensor(EnableSensor::Request& request, EnableSensor::Response& response) {
-  const auto& names = InsIngest::kNames;
-  const auto found = std::find(names.begin(), names.end(), request.sensor);
-  response.success = found != names.end();
-  response.message = response.success ? "" : fmt::format("'{}' is no sensor; known are {}", request.sensor, fmt::join(names, ", "));
-  if (response.success) ingest_->inbox().enable(static_cast<std::size_t>(found - names.begin()), request.enabled);
-  return true;
+  return enableSensor(
+      InsIngest::kNames, [this](std::size_t source, bool enabled) { ingest_->inbox().enable(source, enabled); }, request, response);
 }
 
 bool InsServer::onGetStateAt(GetStateAt::Request& request, GetStateAt::Response& response) {

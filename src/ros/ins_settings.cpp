@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/ros/ins_settings.hpp"
 
-#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
-
 namespace sas_motion::ros_side {
 
 InsSettings InsSettings::fromFile(const std::string& file) {
@@ -20,17 +18,6 @@ InsSettings InsSettings::fromFile(const std::string& file) {
   settings.readMap(yaml);
   yaml.finish();
   return settings;
-}
-
-std::unique_ptr<ins::Estimator> makeInsEstimator(const std::string& name, const ins::Config& config) { return ins::makeAnyEstimator(name, config); }
-
-const std::vector<std::string>& insEstimatorNames() {
-  static const std::vector<std::string> names = [] {
-    auto all = ins::estimatorNames();
-    all.insert(all.end(), {"batch", "fixed_lag"});
-    return all;
-  }();
-  return names;
 }
 
 }  // namespace sas_motion::ros_side

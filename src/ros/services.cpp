@@ -79,12 +79,8 @@ std::string EstimatorServer::setState(Lane& lane, Estimate state) {
 }
 
 bool EstimatorServer::onEnableSensor(EnableSensor::Request& request, EnableSensor::Response& response) {
-  const auto& names = Ingest::kNames;
-  const auto found = std::find(names.begin(), names.end(), request.sensor);
-  response.success = found != names.end();
-  response.message = response.success ? "" : fmt::format("'{}' is no sensor; known are {}", request.sensor, fmt::join(names, ", "));
-  if (response.success) ingest_->enable(static_cast<Ingest::Source>(found - names.begin()), request.enabled);
-  return true;
+  return enableSensor(
+      Ingest::kNames, [this](std::size_t source, bool enabled) { ingest_->enable(static_cast<Ingest::Source>(source), enabled); }, request, response);
 }
 
 bool EstimatorServer::onGetStateAt(GetStateAt::Request& request, GetStateAt::Response& response) {

@@ -52,6 +52,25 @@ nav_msgs::Odometry odometryOf(const Estimate& estimate, const Settings& settings
 geometry_msgs::TwistWithCovarianceStamped currentOf(const Estimate& estimate, const Settings& settings);
 sensor_msgs::NavSatFix fixOf(const Estimate& estimate, const LocalFrame& frame, const Settings& settings);
 sas_motion::FilterUpdate updateOf(const Audit& audit);
+/// A fix at a place, its covariance unknown.
+sensor_msgs::NavSatFix fixAt(const Geodetic& place, ros::Time stamp, const std::string& frame_id);
 sensor_msgs::NavSatFix datumOf(const LocalFrame& frame, const MapSettings& settings, ros::Time stamp);
+
+/// The audit of `rows` rows of a sensor, of any system.
+template <class AnyAudit>
+sas_motion::FilterUpdate filterUpdateOf(const AnyAudit& audit, const char* sensor, int rows) {
+  sas_motion::FilterUpdate update;
+  update.header.stamp = timeOf(audit.stamp);
+  update.sensor = sensor;
+  update.innovation.assign(audit.innovation.data(), audit.innovation.data() + rows);
+  update.weights.assign(audit.weights.data(), audit.weights.data() + rows);
+  for (int row = 0; row < rows; ++row)
+    for (int col = 0; col < rows; ++col) update.innovation_covariance.push_back(audit.S(row, col));
+  update.nis = audit.nis;
+  update.verdict = static_cast<std::uint8_t>(audit.verdict);
+  update.reason = audit.reason;
+  update.iterations = static_cast<std::uint32_t>(audit.iterations);
+  return update;
+}
 
 }  // namespace sas_motion::ros_side

@@ -21,9 +21,4 @@ struct InsSettings : MapSettings {
   static InsSettings fromFile(const std::string& file);
 };
 
-/// The estimator of this name, of any kind; null where there is none. What reprocess and the nodelet make theirs by.
-std::unique_ptr<ins::Estimator> makeInsEstimator(const std::string& name, const ins::Config& config);
-/// The names it knows.
-const std::vector<std::string>& insEstimatorNames();
-
 }  // namespace sas_motion::ros_side

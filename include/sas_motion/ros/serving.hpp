@@ -5,8 +5,10 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
 #include <ros/ros.h>
+#include <sas_motion/EnableSensor.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <string>
 
@@ -37,6 +39,16 @@ void publishTo(const ros::Publisher& publisher, const Make& make) {
 
 /// map -> odom, the identity since one estimate serves both, and odom -> base.
 void broadcastPose(tf2_ros::TransformBroadcaster& broadcaster, const nav_msgs::Odometry& odometry, const MapSettings& settings);
+
+/// Answers ~enable_sensor by enable(index, bool) of the sensors of these names.
+template <class Names, class Enable>
+bool enableSensor(const Names& names, const Enable& enable, const EnableSensor::Request& request, EnableSensor::Response& response) {
+  const auto found = std::find(names.begin(), names.end(), request.sensor);
+  response.success = found != names.end();
+  response.message = response.success ? "" : fmt::format("'{}' is no sensor; known are {}", request.sensor, fmt::join(names, ", "));
+  if (response.success) enable(static_cast<std::size_t>(found - names.begin()), request.enabled);
+  return true;
+}
 
 // What they say on /diagnostics.
 using DiagnosticStatus = diagnostic_updater::DiagnosticStatusWrapper;

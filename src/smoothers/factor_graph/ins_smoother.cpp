@@ -110,4 +110,13 @@ std::unique_ptr<Estimator> makeAnyEstimator(const std::string& name, const Confi
   return std::make_unique<InsSmoother>(config, options);
 }
 
+const std::vector<std::string>& anyEstimatorNames() {
+  static const std::vector<std::string> names = [] {
+    auto all = estimatorNames();
+    all.insert(all.end(), {"batch", "fixed_lag"});
+    return all;
+  }();
+  return names;
+}
+
 }  // namespace sas_motion::ins

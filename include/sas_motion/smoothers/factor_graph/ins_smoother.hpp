@@ -50,4 +50,7 @@ class InsSmoother final : public Estimator {
 /// All estimators: those of makeEstimator and batch, fixed_lag. Null for an unknown name.
 std::unique_ptr<Estimator> makeAnyEstimator(const std::string& name, const Config& config);
 
+/// The names makeAnyEstimator knows.
+const std::vector<std::string>& anyEstimatorNames();
+
 }  // namespace sas_motion::ins
