@@ -7,15 +7,6 @@
 namespace sas_motion::ins {
 namespace {
 
-constexpr double kMicroG = 9.80665e-6;  // [m/s^2]
-
-/// A number that the file has in another unit.
-void scaled(YamlSection& yaml, const std::string& key, double& value, double unit, Range range) {
-  double number = value / unit;
-  yaml.number(key, number, range);
-  value = number * unit;
-}
-
 void readMessages(YamlSection& yaml, MessageOptions& options) {
   yaml.number("floor", options.floor, {0, 1e4});
   yaml.boolean("override_message", options.override_message);
@@ -52,12 +43,12 @@ void readStart(YamlSection yaml, SessionOptions& session) {
 
 void readImuErrors(YamlSection& yaml, Parameters& p, double& rate) {
   yaml.number("rate", rate, {10, 1e4});
-  scaled(yaml, "gyro_constant_deg_h", p.gyro_constant, kDegPerHour, {kTiny, 1e3});
-  scaled(yaml, "gyro_markov_deg_h", p.gyro_markov, kDegPerHour, {kTiny, 1e3});
+  readScaled(yaml, "gyro_constant_deg_h", p.gyro_constant, kDegPerHour, {kTiny, 1e3});
+  readScaled(yaml, "gyro_markov_deg_h", p.gyro_markov, kDegPerHour, {kTiny, 1e3});
   yaml.number("gyro_time", p.gyro_time, {1, 1e7});
-  scaled(yaml, "angle_random_walk_deg_sqrt_h", p.angle_random_walk, kRadPerDeg / 60, {0, 10});
-  scaled(yaml, "accelerometer_constant_ug", p.accelerometer_constant, kMicroG, {kTiny, 1e5});
-  scaled(yaml, "velocity_random_walk_ug_sqrt_s", p.velocity_random_walk, kMicroG, {0, 1e5});
+  readScaled(yaml, "angle_random_walk_deg_sqrt_h", p.angle_random_walk, kRadPerDeg / 60, {0, 10});
+  readScaled(yaml, "accelerometer_constant_ug", p.accelerometer_constant, kMicroG, {kTiny, 1e5});
+  readScaled(yaml, "velocity_random_walk_ug_sqrt_s", p.velocity_random_walk, kMicroG, {0, 1e5});
 }
 
 void readGpsErrors(YamlSection& yaml, Parameters& p) {
@@ -70,7 +61,7 @@ void readDvlErrors(YamlSection& yaml, Parameters& p) {
   yaml.number("markov", p.dvl_markov, {kTiny, 10});
   yaml.number("time", p.dvl_time, {1, 1e7});
   yaml.number("white", p.dvl_white, {kTiny, 10});
-  scaled(yaml, "scale_percent", p.dvl_scale, 0.01, {0, 20});
+  readScaled(yaml, "scale_percent", p.dvl_scale, 0.01, {0, 20});
   yaml.angle("misalignment_deg", p.dvl_misalignment, {0, 10});
 }
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/simulation/sins_scenario.hpp"
 
-#include <fmt/format.h>
-
 #include "sas_motion/config/yaml_vector.hpp"
 
 namespace sas_motion::sins {
@@ -54,9 +52,7 @@ Scenario Scenario::fromFile(const std::string& file) { return read(YamlSection::
 Scenario Scenario::read(YamlSection yaml) {
   Scenario scenario;
   scenario.name = yaml.file();
-  std::string system = "sins_dvl";
-  yaml.text("system", system);
-  if (system != "sins_dvl") yaml.fail("system", fmt::format("is '{}' but must be sins_dvl", system));
+  readSystem(yaml, "sins_dvl");
   yaml.text("name", scenario.name);
   yaml.number("duration", scenario.duration, {1, 1e6});
   ins::readTrack(yaml, scenario.track);

@@ -41,21 +41,13 @@ void simulateTowfish(const Options& options) {
   bag.commit();
 }
 
-void simulateUsbl(const Options& options) {
-  usbl::Scenario scenario = usbl::Scenario::fromFile(options.scenario);
+/// A scenario whose recorder plays it from start to end.
+template <class Scenario, class Recorder>
+void simulateBy(const Options& options) {
+  Scenario scenario = Scenario::fromFile(options.scenario);
   if (options.duration > 0) scenario.duration = options.duration;
   BagOutput bag(options.out);
-  UsblRecorder recorder(scenario, options.seed, bag);
-  Progress progress("simulate", scenario.duration, scenario.duration);
-  recorder.record([&](double seconds) { progress.advance(seconds); });
-  bag.commit();
-}
-
-void simulateIns(const Options& options) {
-  ins::Scenario scenario = ins::Scenario::fromFile(options.scenario);
-  if (options.duration > 0) scenario.duration = options.duration;
-  BagOutput bag(options.out);
-  InsRecorder recorder(scenario, options.seed, bag);
+  Recorder recorder(scenario, options.seed, bag);
   Progress progress("simulate", scenario.duration, scenario.duration);
   recorder.record([&](double seconds) { progress.advance(seconds); });
   bag.commit();
@@ -66,8 +58,8 @@ void run(const Options& options) {
   std::string system;
   yaml.text("system", system);
   if (system.empty()) return simulateTowfish(options);
-  if (system == "usbl") return simulateUsbl(options);
-  if (system == "ins_gps_dvl") return simulateIns(options);
+  if (system == "usbl") return simulateBy<usbl::Scenario, UsblRecorder>(options);
+  if (system == "ins_gps_dvl") return simulateBy<ins::Scenario, InsRecorder>(options);
   yaml.fail("system", "is '" + system + "' but must be usbl or ins_gps_dvl, or left out for a towfish");
 }
 

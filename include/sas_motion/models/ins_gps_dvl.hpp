@@ -29,7 +29,6 @@ enum State {
 using Errors = Vector<kStates>;
 using ErrorMatrix = Matrix<kStates>;
 
-constexpr double kDegPerHour = kRadPerDeg / 3600;
 constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
 
 /// How wrong the sensors are: constants, first-order Markov processes and white noise. (C.4), its defaults.
@@ -142,7 +141,6 @@ class ErrorModel {
 
 /// What a DVL makes of its velocity, by its scale and its small misalignment: (1 + s) (I - [mu x]).
 Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment);
-
 
 /// The INS without the errors that are estimated of it.
 NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit);

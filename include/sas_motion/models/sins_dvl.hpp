@@ -24,9 +24,6 @@ enum State {
 constexpr int kPaperStates = 16;  ///< the paper's: accelerometers count as free of bias
 constexpr int kStates = 19;
 
-constexpr double kDegPerHour = kRadPerDeg / 3600;
-constexpr double kMicroG = 9.80665e-6;  ///< [m/s^2]
-
 /// How wrong the sensors are, and the start. Section B.7 of the specification and, where that is silent, its defaults.
 struct Parameters {
   double gyro_constant = 0.1 * kDegPerHour;            ///< [rad/s]

@@ -4,10 +4,15 @@
 
 #include <Eigen/Geometry>
 
+#include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/stamp.hpp"
 #include "sas_motion/math/types.hpp"
 
 namespace sas_motion {
+
+// What inertial sensors are described in.
+constexpr double kDegPerHour = kRadPerDeg / 3600;  ///< [rad/s]
+constexpr double kMicroG = 9.80665e-6;             ///< [m/s^2]
 
 /// Where a body is, how it moves and how it lies. Axes: nav is east, north, up at the body; body is starboard, forward, up.
 struct NavigationState {
