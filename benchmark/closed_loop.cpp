@@ -15,7 +15,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "campaign/imaging_measures.hpp"
@@ -25,8 +24,8 @@
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/micronavigation.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
-#include "sas_motion/parallel/threads.hpp"
 #include "sas_motion/math/statistics.hpp"
+#include "sas_motion/parallel/threads.hpp"
 #include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 
 namespace {
@@ -90,11 +89,11 @@ Followed follow(const Survey& survey, const std::string& name, const Recording& 
   Output output;
   replay(*estimator, recording, output, [&] {
     for (const auto& solution : output.solutions) {
-      const auto& [stamp, state] = std::tie(solution.stamp, solution.state);
-      result.window.add(stamp, state);
-      for (auto& track : result.apertures) track.add(stamp, state);
+      const Stamp stamp = solution.stamp;
+      result.window.add(stamp, solution.state);
+      for (auto& track : result.apertures) track.add(stamp, solution.state);
       if (stamp >= survey.window.pings.front() && stamp <= survey.window.pings.back())
-        result.velocity_errors.push_back((state.velocity_nav - survey.trajectory.at(secondsBetween(0, stamp)).state.velocity_nav).norm());
+        result.velocity_errors.push_back((solution.state.velocity_nav - survey.trajectory.at(secondsBetween(0, stamp)).state.velocity_nav).norm());
     }
     output.clear();
   });

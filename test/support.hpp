@@ -18,6 +18,17 @@
 
 namespace sas_motion::testing {
 
+/// What a ConfigError says that `run` throws; empty where it throws none.
+template <class Run>
+std::string configErrorOf(const Run& run) {
+  try {
+    run();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 /// A random source that says its seed, so that a failure can be run again.
 inline Random announced(std::uint64_t seed) {
   std::cout << "seed " << seed << "\n";

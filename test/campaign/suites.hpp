@@ -19,6 +19,16 @@ inline Suite suiteOf(const std::string& text, const ins::EstimatorFactory& make_
   return Suite::fromFile(path, towfish::makeEstimator, {}, make_ins);
 }
 
+/// A suite that is refused with a message that has this word.
+inline void expectRefused(const std::string& text, const std::string& word) {
+  try {
+    suiteOf(text);
+    ADD_FAILURE() << text;
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
 /// A suite of one campaign on the paper's scenario, of `duration` seconds.
 inline std::string zhuSuite(double duration, int runs, const std::string& estimators, const std::string& laws) {
   const auto scenario = std::filesystem::path(::testing::TempDir()) / ("zhu_" + std::to_string(duration) + ".yaml");
@@ -42,6 +52,23 @@ inline std::vector<std::vector<EstimatorReport>> runAll(const Suite& suite) {
       },
       [&](const std::vector<EstimatorReport>& reports) { all.push_back(reports); });
   return all;
+}
+
+/// The only estimator's error of each group that has a bound under the first law, over that bound, RMS over all runs.
+inline std::map<std::string, double> overBound(const Suite& suite) {
+  const auto runs = runAll(suite);
+  std::map<std::string, double> ratios;
+  for (const auto& [group, bound] : suite.campaigns[0]->bound(0, {1})) {
+    std::vector<double> errors;
+    for (const auto& reports : runs)
+      for (const auto& [name, error] : reports.front().errors)
+        if (name == group) errors.push_back(error.rmse);
+    EXPECT_EQ(errors.size(), runs.size()) << group;
+    ratios[group] = rootMeanSquare(errors) / bound;
+    std::cout << group << ", error over bound: " << ratios[group] << "\n";
+  }
+  EXPECT_FALSE(ratios.empty());
+  return ratios;
 }
 
 /// RMS position error of an estimator over all runs of a law, of a suite of one campaign.

@@ -7,6 +7,7 @@
 namespace sas_motion {
 namespace {
 
+using testing::expectRefused;
 using testing::rmse;
 using testing::runAll;
 using testing::suiteOf;
@@ -128,20 +129,12 @@ TEST(UsblSystem, ATraceShowsTheConvergence) {
 }
 
 TEST(UsblSystem, SaysWhatIsWrong) {
-  const auto refused = [](const std::string& text, const std::string& word) {
-    try {
-      suiteOf(text);
-      ADD_FAILURE() << text;
-    } catch (const ConfigError& error) {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
-  };
-  refused(usblSuite(1, "[batch]", "[{name: clean}]"), "batch");  // without a factory of fitters
-  refused(usblSuite(1, "[]", "[{name: clean}]"), "estimators");
-  refused(usblSuite(1, "[ckf]", "[{name: clean, noice: 1}]"), "noice");
-  refused(usblSuite(1, "[ckf]", "[{name: clean}]", ", skip: 500"), "skip");
-  refused(usblSuite(1, "[ckf]", "[{name: clean}]", ", settings: {mode: sideways}"), "sideways");
-  refused("{campaigns: [{name: a, system: usbl, estimators: [ckf]}]}", "scenario");
+  expectRefused(usblSuite(1, "[batch]", "[{name: clean}]"), "batch");  // without a factory of fitters
+  expectRefused(usblSuite(1, "[]", "[{name: clean}]"), "estimators");
+  expectRefused(usblSuite(1, "[ckf]", "[{name: clean, noice: 1}]"), "noice");
+  expectRefused(usblSuite(1, "[ckf]", "[{name: clean}]", ", skip: 500"), "skip");
+  expectRefused(usblSuite(1, "[ckf]", "[{name: clean}]", ", settings: {mode: sideways}"), "sideways");
+  expectRefused("{campaigns: [{name: a, system: usbl, estimators: [ckf]}]}", "scenario");
 }
 
 }  // namespace

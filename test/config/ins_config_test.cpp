@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/config/ins_config.hpp"
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
 namespace sas_motion::ins {
 namespace {
@@ -16,12 +16,7 @@ Settings read(const std::string& text) {
 }
 
 std::string errorOf(const std::string& text) {
-  try {
-    read(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::configErrorOf([&] { read(text); });
 }
 
 TEST(InsConfig, TheFileHoldsTheDefaults) {

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/config/usbl_config.hpp"
 
-#include <gtest/gtest.h>
-
 #include "sas_motion/math/angles.hpp"
+#include "support.hpp"
 
 namespace sas_motion::usbl {
 namespace {
@@ -18,12 +17,7 @@ Config read(const std::string& text) {
 }
 
 std::string errorOf(const std::string& text) {
-  try {
-    read(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::configErrorOf([&] { read(text); });
 }
 
 TEST(UsblConfig, TheFileHoldsTheDefaults) {

@@ -45,30 +45,31 @@ inline Output outputOf(const std::string& name, const Scenario& scenario, const 
   return outputOf(*makeAnyEstimator(name, configOf(scenario)), recording);
 }
 
-/// RMS of the horizontal position error from `skip` on [m].
-inline double positionError(const Output& output, const Scenario& scenario, double skip) {
+/// RMS from `skip` on of `error(solution, truth)`.
+template <class Error>
+double rmsError(const Output& output, const Scenario& scenario, double skip, const Error& error) {
   const Trajectory trajectory(scenario.track, scenario.duration);
   double square = 0, count = 0;
   for (std::size_t k = 0; k < output.solutions.size(); k += 20) {
     const double time = secondsBetween(0, output.solutions[k].stamp);
     if (time < skip) continue;
-    square += displacement(trajectory.at(time).state, output.solutions[k].state).head<2>().squaredNorm();
+    square += Vector<2>(error(output.solutions[k].state, trajectory.at(time).state)).squaredNorm();
     ++count;
   }
   return std::sqrt(square / count);
 }
 
-/// RMS of the tilt from `skip` on, whose errors are short, so that a few runs have many of them [rad].
+/// Of the horizontal position [m].
+inline double positionError(const Output& output, const Scenario& scenario, double skip) {
+  return rmsError(output, scenario, skip,
+                  [](const NavigationState& state, const NavigationState& truth) { return displacement(truth, state).head<2>().eval(); });
+}
+
+/// Of the tilt, whose errors are short, so that a few runs have many of them [rad].
 inline double tiltError(const Output& output, const Scenario& scenario, double skip) {
-  const Trajectory trajectory(scenario.track, scenario.duration);
-  double square = 0, count = 0;
-  for (std::size_t k = 0; k < output.solutions.size(); k += 20) {
-    const double time = secondsBetween(0, output.solutions[k].stamp);
-    if (time < skip) continue;
-    square += attitudeError(output.solutions[k].state.q_nav_body, trajectory.at(time).state.q_nav_body).head<2>().squaredNorm();
-    ++count;
-  }
-  return std::sqrt(square / count);
+  return rmsError(output, scenario, skip, [](const NavigationState& state, const NavigationState& truth) {
+    return attitudeError(state.q_nav_body, truth.q_nav_body).head<2>().eval();
+  });
 }
 
 }  // namespace sas_motion::ins::testing

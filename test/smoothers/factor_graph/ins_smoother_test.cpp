@@ -105,8 +105,7 @@ TEST(InsSmoother, LearnsLeverArmsFromReadings) {
   const Output learned = outputOf("batch", untold, recording);
   // THEN they agree, height included
   ASSERT_EQ(told.solutions.size(), learned.solutions.size());
-  for (std::size_t k = 0; k < told.solutions.size(); k += 100)
-    EXPECT_LT(displacement(told.solutions[k].state, learned.solutions[k].state).norm(), 1e-6) << k;
+  for (std::size_t k = 0; k < told.solutions.size(); k += 100) EXPECT_LT(displacement(told.solutions[k].state, learned.solutions[k].state).norm(), 1e-6) << k;
 }
 
 TEST(InsSmoother, BatchBeatsTheFilterAlsoWithOutliers) {
