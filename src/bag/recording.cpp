@@ -83,6 +83,7 @@ RecordedAudit auditOf(const sas_motion::FilterUpdate& update) {
   audit.rows = update.weights.size();
   for (const double weight : update.weights) audit.least_weight = std::min(audit.least_weight, weight);
   if (!update.innovation_covariance.empty() && update.innovation_covariance[0] > 0) audit.nis = update.nis;
+  audit.effective_size = update.effective_size;
   audit.verdict = static_cast<Verdict>(std::min<std::uint8_t>(update.verdict, 4));
   return audit;
 }

@@ -42,8 +42,8 @@ std::unique_ptr<ReprocessSystem> makeReprocessSystem(const std::string& config) 
   if (config.empty()) return makeTowfishSystem(config);
   auto yaml = YamlSection::fromFile(config);
   yaml.text("system", system);
-  if (system == "ins_gps_dvl") return makeInsSystem(config);
-  if (system != "towfish") yaml.fail("system", fmt::format("is '{}' but must be towfish or ins_gps_dvl", system));
+  if (system == "ins_gps_dvl" || system == "sins_dvl") return makeInsSystem(config);
+  if (system != "towfish") yaml.fail("system", fmt::format("is '{}' but must be towfish, ins_gps_dvl or sins_dvl", system));
   return makeTowfishSystem(config);
 }
 

@@ -11,7 +11,6 @@
 #include "sas_motion/ros/estimate_messages.hpp"
 #include "sas_motion/ros/ins_ingest.hpp"
 #include "sas_motion/ros/ins_remarks.hpp"
-#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -71,13 +70,14 @@ class InsRun final : public BagRun {
       : settings_(settings),
         file_(file),
         topics_(std::move(topics)),
-        session_(settings.estimation.session, estimators, ins::makeAnyEstimator),
+        session_(settings.estimation.session, estimators, settings.make),
         ingest_(settings, out.transforms, [this](const ins::Reading& reading) { session_.process(reading); }) {
     for (const auto& name : estimators) writers_.push_back(std::make_unique<Writer>(name, settings, out));
   }
 
   bool isSensor(const BagConnection& connection) const override {
-    return connection.topic == topics_.fix || connection.topic == topics_.imu || connection.topic == topics_.twist || connection.topic == topics_.depth;
+    const auto& all = {topics_.fix, topics_.imu, topics_.twist, topics_.depth, topics_.velocity};
+    return std::find(all.begin(), all.end(), connection.topic) != all.end();
   }
 
   void take(const BagReader& bag, const BagMessage& message) override {
@@ -86,6 +86,7 @@ class InsRun final : public BagRun {
     if (topic == topics_.fix && bag.get(message, fix_)) ingest_.take(fix_);
     if (topic == topics_.twist && bag.get(message, twist_)) ingest_.take(twist_);
     if (topic == topics_.depth && bag.get(message, depth_)) ingest_.take(depth_);
+    if (topic == topics_.velocity && bag.get(message, twist_)) ingest_.takeVelocity(twist_);
     if (session_.unfed() < kBatch) return;
     session_.feed();
     drain();
@@ -95,7 +96,8 @@ class InsRun final : public BagRun {
     ingest_.finish();
     session_.finish();
     drain();
-    for (std::size_t i = 0; i < InsIngest::kSources; ++i) report.sensors[InsIngest::kNames[i]] = ingest_.inbox().counts(i);
+    for (std::size_t i = 0; i < InsIngest::kSources; ++i)
+      if (i != InsIngest::kVelocity || !topics_.velocity.empty()) report.sensors[InsIngest::kNames[i]] = ingest_.inbox().counts(i);
     for (std::size_t i = 0; i < writers_.size(); ++i) {
       writers_[i]->finish(session_.lanes()[i]);
       report.estimators[session_.lanes()[i].name] = writers_[i]->report();
@@ -135,8 +137,8 @@ class InsSystem final : public ReprocessSystem {
   explicit InsSystem(const std::string& config) : settings_(InsSettings::fromFile(config)) {}
 
   void require(const std::string& estimator) const override {
-    if (!ins::makeAnyEstimator(estimator, settings_.estimation.session.config))
-      throw std::runtime_error(fmt::format("'{}' is no estimator of INS, GPS and DVL; known are {}", estimator, fmt::join(ins::anyEstimatorNames(), ", ")));
+    if (!settings_.make(estimator, settings_.estimation.session.config))
+      throw std::runtime_error(fmt::format("'{}' is no estimator of this system; known are {}", estimator, fmt::join(settings_.estimators, ", ")));
   }
   std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file, const std::vector<std::string>& estimators,
                                 const RunOutput& out) const override {

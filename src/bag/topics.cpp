@@ -68,8 +68,11 @@ SensorTopics findTopics(const std::vector<BagConnection>& connections, const Set
 }
 
 InsTopics findTopics(const std::vector<BagConnection>& connections, const InsSettings& settings, const std::string& file) {
-  const TypeByTopic sensors = sensorsIn(connections);
+  TypeByTopic sensors = sensorsIn(connections);
   InsTopics topics;
+  for (const auto& [topic, type] : sensors)
+    if (!settings.velocity_topic.empty() && bareTopic(topic) == bareTopic(settings.velocity_topic)) topics.velocity = topic;
+  sensors.erase(topics.velocity);  // it is not the DVL's
   std::vector<std::string> missing;
   const auto take = [&](std::string& topic, const std::string& wanted, const char* type, const char* key, bool enabled) {
     topic = enabled ? find(sensors, wanted, type, file) : "";

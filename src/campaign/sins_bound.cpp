@@ -103,12 +103,14 @@ class SinsBound {
   }
 
   void update(PosteriorBound<kStates>& bound, const ins::LabelledAiding& labelled, double time) const {
-    const View<kStates> view(trajectory_.at(time).state);
+    const ins::TruthSample truth = trajectory_.at(time);
+    const View<kStates> view(truth.state);
     const Parameters& p = scenario_.parameters;
     if (labelled.reading.sensor == ins::Sensor::Dvl) {
+      const Vector<3> turning_body = ins::rateOverGround(truth.state, truth.rateBody()).cross(p.dvl_lever_body);
       LinearMeasurement<kStates, 3> z;
       z.innovation.setZero();
-      z.H = derivative<3>([&](const Errors& x) { return view.dvl(x, Vector<3>::Zero()); }, unit_);
+      z.H = derivative<3>([&](const Errors& x) { return view.dvl(x, turning_body); }, unit_);
       z.R = p.dvl_white.cwiseAbs2().asDiagonal();
       Vector<3> factor;
       for (int row = 0; row < 3; ++row) factor(row) = dvl_.of(labelled.variance(row), time);
@@ -116,7 +118,7 @@ class SinsBound {
     } else {
       LinearMeasurement<kStates, 1> z;
       z.innovation.setZero();
-      z.H = derivative<1>([&](const Errors& x) { return Vector<1>(view.height(x)); }, unit_);
+      z.H = derivative<1>([&](const Errors& x) { return Vector<1>(view.height(x, p.depth_lever_body)); }, unit_);
       z.R = Matrix<1>(p.depth_white * p.depth_white);
       bound.measurement<1>({z}, {Vector<1>(depth_.of(labelled.variance(0), time))});
     }

@@ -7,6 +7,40 @@
 namespace sas_motion::ins {
 namespace {
 
+constexpr double kLargestStart = 10;  // initial misalignment that is small [deg]
+
+void readImu(YamlSection yaml, Settings& settings) {
+  Config& config = settings.session.config;
+  double rate = 1 / config.imu.period;
+  readImuErrors(yaml, config.parameters, rate);
+  config.imu.period = 1 / rate;
+  readUnit(yaml, config.imu, settings);
+  yaml.finish();
+}
+
+void readAlignment(YamlSection yaml, SessionOptions& session) {
+  yaml.number("position_sigma", session.alignment.position_sigma, {kTiny, 1e5});
+  readStart(yaml, session, kLargestStart);
+  yaml.finish();
+}
+
+/// A message without a covariance has the white noise that the filters are told.
+void shareWhite(Settings& settings) {
+  const Parameters& p = settings.session.config.parameters;
+  settings.of(Sensor::Gps).white = p.gps_white;
+  settings.of(Sensor::Dvl).white.setConstant(p.dvl_white);
+  settings.of(Sensor::Depth).white.setConstant(p.depth_white);
+}
+
+}  // namespace
+
+Settings::Settings() {
+  session.config.imu.max_rate = 1000 * kRadPerDeg;
+  of(Sensor::Gps).floor = of(Sensor::Depth).floor = 0.01;
+  of(Sensor::Dvl).floor = 0.001;
+  shareWhite(*this);
+}
+
 void readMessages(YamlSection& yaml, MessageOptions& options) {
   yaml.number("floor", options.floor, {0, 1e4});
   yaml.boolean("override_message", options.override_message);
@@ -15,31 +49,28 @@ void readMessages(YamlSection& yaml, MessageOptions& options) {
   yaml.finish();
 }
 
-void readImu(YamlSection yaml, Settings& settings) {
-  Config& config = settings.session.config;
-  double rate = 1 / config.imu.period;
-  readImuErrors(yaml, config.parameters, rate);
-  config.imu.period = 1 / rate;
-  yaml.number("longest_gap", config.imu.longest_gap, {kTiny, 10});
-  yaml.angle("max_rate_deg", config.imu.max_rate, {1, 1e5});
-  yaml.number("max_force", config.imu.max_force, {10, 1e5});
+void readUnit(YamlSection& yaml, Mechanisation::Options& imu, Settings& settings) {
+  yaml.number("longest_gap", imu.longest_gap, {kTiny, 10});
+  yaml.angle("max_rate_deg", imu.max_rate, {1, 1e5});
+  yaml.number("max_force", imu.max_force, {10, 1e5});
   yaml.number("time_offset", settings.imu_time_offset, {-3600, 3600});
-  yaml.finish();
 }
 
-void readStart(YamlSection yaml, SessionOptions& session) {
+void readStart(YamlSection& yaml, SessionOptions& session, double largest_deg) {
   AlignmentOptions& alignment = session.alignment;
   yaml.number("max_age", alignment.max_age, {kTiny, 60});
   yaml.number("velocity_wait", alignment.velocity_wait, {0, 1e6});
-  yaml.number("position_sigma", alignment.position_sigma, {kTiny, 1e5});
   yaml.number("velocity_sigma", alignment.velocity_sigma, {kTiny, 100});
   yaml.number("rest_velocity_sigma", alignment.rest_velocity_sigma, {kTiny, 100});
-  yaml.angle("tilt_deg", session.config.parameters.start_tilt, {kTiny, 10});
-  yaml.angle("heading_deg", session.config.parameters.start_heading, {kTiny, 10});
-  yaml.finish();
+  yaml.angle("tilt_deg", session.config.parameters.start_tilt, {kTiny, largest_deg});
+  yaml.angle("heading_deg", session.config.parameters.start_heading, {kTiny, largest_deg});
 }
 
-}  // namespace
+void readSession(YamlSection& yaml, Settings& settings) {
+  yaml.number("lag", settings.session.lag, {0, 3600});
+  yaml.number("max_gap", settings.session.max_gap, {kTiny, 1e6});
+  yaml.number("output_rate", settings.output_rate, {0.001, 1e4});
+}
 
 void readImuErrors(YamlSection& yaml, Parameters& p, double& rate) {
   yaml.number("rate", rate, {10, 1e4});
@@ -82,10 +113,9 @@ void readSettings(YamlSection& yaml, Settings& settings) {
   readDepthErrors(depth, p);
   depth.number("surface", settings.surface, {-1e4, 1e4});
   readMessages(depth, settings.of(Sensor::Depth));
-  readStart(yaml.section("start"), settings.session);
-  yaml.number("lag", settings.session.lag, {0, 3600});
-  yaml.number("max_gap", settings.session.max_gap, {kTiny, 1e6});
-  yaml.number("output_rate", settings.output_rate, {0.001, 1e4});
+  readAlignment(yaml.section("start"), settings.session);
+  readSession(yaml, settings);
+  shareWhite(settings);
 }
 
 }  // namespace sas_motion::ins

@@ -37,6 +37,14 @@ Vector<3> perMetre(const NavigationState& state) {
   return {1 / M, 1 / (N * std::cos(state.latitude)), 1};
 }
 
+Vector<3> northFirst(const Vector<3>& enu) { return {enu.y(), enu.x(), enu.z()}; }
+
+/// Covariance of a quaternion by a rotation vector's variances on nav axes.
+Matrix<4> ofRotation(const Eigen::Quaterniond& q, const Vector<3>& variance) {
+  const Matrix<4, 3> Y = leftTurn(q);
+  return 0.25 * Y * variance.asDiagonal() * Y.transpose();
+}
+
 }  // namespace
 
 Matrix<4, 3> leftTurn(const Eigen::Quaterniond& q) {
@@ -86,15 +94,17 @@ Motion<N>::Motion(const Parameters& p, const NavigationState& ins, const Preinte
       angle_decay_(std::exp(-felt.duration() / p.dvl_angle_time)) {}
 
 template <int N>
-Matrix<N> Motion<N>::noiseRoot() const {
+Matrix<N> Motion<N>::noiseRoot(const Vector<9>& besides) const {
   const Parameters& p = parameters_;
   const double T = felt_.duration();
   Matrix<N> Q = Matrix<N>::Zero();
-  Q.diagonal().template segment<3>(kPosition) = T * (kRoughPosition * perMetre(ins_)).cwiseAbs2();
-  Q.diagonal().template segment<3>(kVelocity).setConstant(T * squared(p.velocity_random_walk));
+  const Vector<3> position_variance = Vector<3>::Constant(T * squared(kRoughPosition)) + besides.segment<3>(3);
+  Q.diagonal().template segment<3>(kPosition) = northFirst(position_variance).cwiseProduct(perMetre(ins_).cwiseAbs2());
+  Q.diagonal().template segment<3>(kVelocity) = Vector<3>::Constant(T * squared(p.velocity_random_walk)) + besides.head<3>();
   const Matrix<4, 3> U = rightTurn(ins_moved_.q_nav_body);
   Q.template block<4, 4>(kQuaternion, kQuaternion) =
-      T * (0.25 * squared(p.angle_random_walk) * U * U.transpose() + squared(kRoughQuaternion) * Matrix<4>::Identity());
+      T * (0.25 * squared(p.angle_random_walk) * U * U.transpose() + squared(kRoughQuaternion) * Matrix<4>::Identity()) +
+      ofRotation(ins_moved_.q_nav_body, besides.tail<3>());
   Q.diagonal().template segment<3>(kGyro).setConstant(T * squared(kRoughGyro));
   Q(kDvlOffset, kDvlOffset) = squared(p.dvl_offset) * (1 - squared(offset_decay_));  // (0.5)
   Q(kDvlScale, kDvlScale) = T * squared(kRoughScale);
@@ -137,6 +147,12 @@ Vector<3> View<N>::dvl(const Vector<N>& x, const Vector<3>& turning_body) const 
 }
 
 template <int N>
+double View<N>::height(const Vector<N>& x, const Vector<3>& lever_body) const {
+  const Vector<4> q = coefficients(ins_.q_nav_body) - x.template segment<4>(kQuaternion);
+  return ins_.height - x(kPosition + 2) + (quaternionFrom(q).normalized() * lever_body).z();
+}
+
+template <int N>
 Vector<N> View<N>::constrained(const Vector<N>& x) const {
   const Vector<4> q = coefficients(ins_.q_nav_body);
   Vector<N> on_sphere = x;
@@ -161,19 +177,16 @@ template <int N>
 Gaussian<N> startBelief(const Parameters& p, const NavigationState& ins) {
   Gaussian<N> belief{Vector<N>::Zero(), Matrix<N>::Zero()};
   auto P = belief.covariance.diagonal();
-  const Vector<3> north_first(p.start_position.y(), p.start_position.x(), p.start_position.z());
-  P.template segment<3>(kPosition) = north_first.cwiseProduct(perMetre(ins)).cwiseAbs2();
+  P.template segment<3>(kPosition) = northFirst(p.start_position).cwiseProduct(perMetre(ins)).cwiseAbs2();
   P.template segment<3>(kVelocity).setConstant(squared(p.start_velocity));
   P.template segment<3>(kGyro).setConstant(squared(p.gyro_constant));
   P(kDvlOffset) = squared(p.dvl_offset);
   P(kDvlScale) = squared(p.dvl_scale);
   P(kDvlAngle) = squared(p.dvl_angle);
   if constexpr (N > kAccelerometer) P.template segment<3>(kAccelerometer).setConstant(squared(p.accelerometer_constant));
-  // The rotation vector's covariance on the sphere of quaternions, and a little across it.
-  const Matrix<4, 3> Y = leftTurn(ins.q_nav_body);
   const Vector<3> sigma(p.start_tilt, p.start_tilt, p.start_heading);
-  belief.covariance.template block<4, 4>(kQuaternion, kQuaternion) =
-      0.25 * Y * sigma.cwiseAbs2().asDiagonal() * Y.transpose() + squared(kQuaternionRegulariser) * Matrix<4>::Identity();
+  belief.covariance.template block<4, 4>(kQuaternion, kQuaternion) =  // on the sphere of quaternions, and a little across it
+      ofRotation(ins.q_nav_body, sigma.cwiseAbs2()) + squared(kQuaternionRegulariser) * Matrix<4>::Identity();
   return belief;
 }
 

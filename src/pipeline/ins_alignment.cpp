@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/pipeline/ins_alignment.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sas_motion::ins {
 namespace {
-
-Event eventOf(const Reading& reading) {
-  if (const auto* aiding = std::get_if<Aiding>(&reading)) return *aiding;
-  return std::get<InertialReading>(reading).imu;
-}
 
 void refuse(const std::vector<Reading>& readings, std::vector<Event>& events) {
   for (const auto& reading : readings)
@@ -25,19 +23,22 @@ Audit refusal(const Aiding& reading, Verdict verdict, const char* reason) {
 }
 
 void Alignment::take(const Reading& reading, std::vector<Event>& events) {
-  if (started_) {
-    events.push_back(eventOf(reading));
-    return;
-  }
+  if (started_) return pass(reading, events);
   gather(reading, events);
   const auto* aiding = std::get_if<Aiding>(&reading);
   if (!aiding || aiding->sensor != Sensor::Gps) return;
   const auto start = startAt(*aiding);
   if (!start) return;
   events.push_back(*start);
-  for (const auto& later : since_) events.push_back(eventOf(later));
+  for (const auto& later : since_) pass(later, events);
   since_.clear();
   started_ = true;
+}
+
+void Alignment::pass(const Reading& reading, std::vector<Event>& events) const {
+  const auto* aiding = std::get_if<Aiding>(&reading);
+  if (aiding && (options_.fixes_aid || aiding->sensor != Sensor::Gps)) events.push_back(*aiding);
+  if (const auto* inertial = std::get_if<InertialReading>(&reading)) events.push_back(inertial->imu);
 }
 
 void Alignment::gather(const Reading& reading, std::vector<Event>& events) {
@@ -45,6 +46,8 @@ void Alignment::gather(const Reading& reading, std::vector<Event>& events) {
     if (aiding->lever_body) leverOf(parameters_, aiding->sensor) = *aiding->lever_body;
     if (aiding->sensor == Sensor::Dvl) velocity_ = *aiding;
     heard_fix_ |= aiding->sensor == Sensor::Gps;
+  } else if (const auto* velocity = std::get_if<GroundVelocity>(&reading)) {
+    ground_velocity_ = *velocity;
   } else {
     heard_unit_ = true;
     const auto& inertial = std::get<InertialReading>(reading);
@@ -63,27 +66,39 @@ void Alignment::gather(const Reading& reading, std::vector<Event>& events) {
 }
 
 std::optional<Start> Alignment::startAt(const Aiding& fix) {
-  const auto fresh = [&](Stamp stamp) { return secondsBetween(stamp, fix.stamp) <= options_.max_age; };
-  if (!attitude_ || !fresh(attitude_->imu.stamp)) return std::nullopt;
+  if (!attitude_ || !fresh(attitude_->imu.stamp, fix)) return std::nullopt;
   if (!first_located_) first_located_ = fix.stamp;
-  const bool moves = velocity_ && fresh(velocity_->stamp);
-  if (!moves && secondsBetween(*first_located_, fix.stamp) < options_.velocity_wait) return std::nullopt;
-
   Start start{fix.fix, attitude_->imu.stamp, parameters_};
   NavigationState& state = start.state;
   state.q_nav_body = attitude_->attitude->q_nav_body;
-  state.velocity_nav = moves ? velocity(start) : Vector<3>::Zero();
-  displace(state, -(state.q_nav_body * parameters_.gps_lever_body) - secondsBetween(start.stamp, fix.stamp) * state.velocity_nav);
-  start.parameters.start_position.setConstant(options_.position_sigma);
-  start.parameters.start_velocity = moves ? options_.velocity_sigma : options_.rest_velocity_sigma;
   start.parameters.start_tilt = attitude_->attitude->tilt_sigma;
   start.parameters.start_heading = attitude_->attitude->heading_sigma;
+  if (!setVelocity(fix, start)) return std::nullopt;
+  displace(state, -(state.q_nav_body * parameters_.gps_lever_body) - secondsBetween(start.stamp, fix.stamp) * state.velocity_nav);
+  const Vector<3> of_fix = fix.variance ? Vector<3>(fix.variance->cwiseSqrt()) : parameters_.gps_white;
+  start.parameters.start_position = options_.fixes_aid ? Vector<3>::Constant(options_.position_sigma) : of_fix;
   return start;
 }
 
-Vector<3> Alignment::velocity(const Start& start) const {
-  const ErrorModel model(parameters_, start.state);
-  return start.state.q_nav_body * model.velocityOfIns(start.state, attitude_->imu.rate_body, velocity_->velocity_body);
+bool Alignment::setVelocity(const Aiding& fix, Start& start) const {
+  Vector<3>& velocity_nav = start.state.velocity_nav;
+  double& sigma = start.parameters.start_velocity;
+  if (ground_velocity_ && fresh(ground_velocity_->stamp, fix)) {
+    const Vector<3> turning_body = rateOverGround(start.state, attitude_->imu.rate_body).cross(parameters_.gps_lever_body);
+    velocity_nav = ground_velocity_->velocity_nav - start.state.q_nav_body * turning_body;
+    sigma = ground_velocity_->sigma;
+  } else if (velocity_ && fresh(velocity_->stamp, fix)) {
+    const ErrorModel model(parameters_, start.state);
+    velocity_nav = start.state.q_nav_body * model.velocityOfIns(start.state, attitude_->imu.rate_body, velocity_->velocity_body);
+    const double turned = velocity_nav.norm() * std::min(start.parameters.start_heading, 1.0);  // by an attitude that is wrong
+    sigma = std::hypot(options_.velocity_sigma, turned);
+  } else if (secondsBetween(*first_located_, fix.stamp) >= options_.velocity_wait) {
+    velocity_nav.setZero();
+    sigma = options_.rest_velocity_sigma;
+  } else {
+    return false;
+  }
+  return true;
 }
 
 Alignment::Lack Alignment::lack() const {

@@ -11,10 +11,8 @@ constexpr double kFurthest = 1;               // beyond the newest reading of th
 /// Hands over a reading; the newest solution, where there is one.
 std::optional<Solution> give(Estimator& estimator, const Reading& reading, Output& output) {
   output.clear();
-  if (const auto* aiding = std::get_if<Aiding>(&reading))
-    estimator.process(*aiding, output);
-  else
-    estimator.process(std::get<InertialReading>(reading).imu, output);
+  if (const auto* aiding = std::get_if<Aiding>(&reading)) estimator.process(*aiding, output);
+  if (const auto* inertial = std::get_if<InertialReading>(&reading)) estimator.process(inertial->imu, output);
   return output.solutions.empty() ? std::nullopt : std::optional(output.solutions.back());
 }
 

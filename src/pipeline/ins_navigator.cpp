@@ -24,12 +24,10 @@ Audit auditOf(const Aiding& reading, const Update<Gaussian<kStates>, M>& update)
 
 }  // namespace
 
-Errors gapVariance(const NavigatorOptions& options, double gap, double part) {
-  const double force = options.bridge_force, rate = options.bridge_rate / kMilliradian;
+Errors gapVariance(const BridgedGap& bridge, double gap, double part) {
   Errors variance = Errors::Zero();
-  variance.segment<3>(kVelocity).setConstant(force * force * gap * part);
-  variance.segment<3>(kPosition).setConstant(0.25 * force * force * gap * gap * gap * part);
-  variance.segment<3>(kAttitude).setConstant(rate * rate * gap * part);
+  variance.head<9>() = bridge.variance(gap, part);
+  variance.segment<3>(kAttitude) /= kMilliradian * kMilliradian;
   return variance;
 }
 
@@ -142,7 +140,7 @@ NavigationState Navigator<Filter>::dvl() const {
 
 template <class Filter>
 void Navigator<Filter>::widenForGap(double part) {
-  addCovariance(belief_, ErrorMatrix(gapVariance(options_, gap_, part).asDiagonal()));
+  addCovariance(belief_, ErrorMatrix(gapVariance(options_.bridge, gap_, part).asDiagonal()));
 }
 
 template <class Filter>

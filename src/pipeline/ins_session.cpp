@@ -34,7 +34,7 @@ void Session::refuse(const Reading& reading, ReadingQueue::Answer answer) {
   if (aiding && answer == Answer::Late) events_.push_back(refusal(*aiding, Verdict::Stale, "older than the lag"));
   if (aiding && answer == Answer::Duplicate) events_.push_back(refusal(*aiding, Verdict::Invalid, "duplicate stamp"));
   if (aiding && answer == Answer::Far) events_.push_back(refusal(*aiding, Verdict::Invalid, "stamp far ahead of the others"));
-  if (aiding) return;
+  if (!std::holds_alternative<InertialReading>(reading)) return;
   inertial_.late += answer == Answer::Late;
   inertial_.duplicate += answer == Answer::Duplicate;
   inertial_.far += answer == Answer::Far;

@@ -31,6 +31,17 @@ const NamedFilter* findFilter(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+Config startedAt(Config config, const ins::Parameters& found) {
+  Parameters& p = config.parameters;
+  p.start_position = found.start_position;
+  p.start_velocity = found.start_velocity;
+  p.start_tilt = found.start_tilt;
+  p.start_heading = found.start_heading;
+  p.dvl_lever_body = found.dvl_lever_body;
+  p.depth_lever_body = found.depth_lever_body;
+  return config;
+}
+
 std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config) {
   const NamedFilter* found = findFilter(name);
   if (!found) return nullptr;

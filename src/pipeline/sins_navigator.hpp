@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <type_traits>
 
 #include "sas_motion/filters/particles/particle_filter.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/filters/square_root_filter.hpp"
+#include "sas_motion/pipeline/bridged_gap.hpp"
+#include "sas_motion/pipeline/ins_alignment.hpp"
 #include "sas_motion/pipeline/sins_estimator.hpp"
 #include "sas_motion/pipeline/smooth_track.hpp"
 
@@ -18,26 +21,31 @@ namespace sas_motion::sins {
 /// Mechanises the inertial unit, open loop, and estimates its errors with a particle filter.
 ///
 /// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale. DVL and depth of one stamp are
-/// fused together.
+/// fused together. The covariance of a solution is that of the filter's last step. A copy shares the particles until either changes them.
 template <int N, class Filter>
 class Navigator final : public ins::Estimator {
  public:
-  Navigator(Filter filter, const Config& config, bool smooth) : filter_(std::move(filter)), config_(config), smooth_(smooth) {}
+  Navigator(Filter filter, const Config& config, bool smooth) : filter_(std::make_shared<Filter>(std::move(filter))), config_(config), smooth_(smooth) {}
 
   void start(const NavigationState& state, Stamp stamp) override {
     ins_.emplace(state, stamp, config_.imu);
+    Filter& filter = ownFilter();
     const auto belief = startBelief<N>(config_.parameters, state);
     if constexpr (std::is_same_v<Filter, ParticleFilter<N>>)
-      filter_.start(belief);
+      filter.start(belief);
     else
-      filter_.start(belief, startBelief<N>(ofOneParticle(config_.parameters), state).covariance);
-    filter_.replace([&](const Vector<N>& x) { return View<N>(state).constrained(x); });
+      filter.start(belief, startBelief<N>(ofOneParticle(config_.parameters), state).covariance);
+    filter.replace([&](const Vector<N>& x) { return View<N>(state).constrained(x); });
     predicted_from_ = state;
     felt_ = {};
+    gap_variance_.setZero();
     mean_ = belief.mean;
+    covariance_ = covarianceOf(belief);
     waiting_.clear();
     track_.emplace(state, SmoothTrack::Options{});
   }
+
+  std::unique_ptr<ins::Estimator> clone() const override { return std::make_unique<Navigator>(*this); }
 
   void process(const ins::Aiding& reading, ins::Output&) override { waiting_.push_back(reading); }
 
@@ -46,23 +54,22 @@ class Navigator final : public ins::Estimator {
     const ImuVerdict verdict = ins_->judge(reading);
     if (verdict == ImuVerdict::Implausible || verdict == ImuVerdict::OutOfOrder) return verdict;
     std::stable_sort(waiting_.begin(), waiting_.end(), [](const ins::Aiding& a, const ins::Aiding& b) { return a.stamp < b.stamp; });
-    std::optional<Matrix<9>> covariance;
+    const double gap = verdict == ImuVerdict::Bridged ? secondsBetween(ins_->stamp(), reading.stamp) : 0;
     while (!waiting_.empty() && waiting_.front().stamp <= reading.stamp) {
       const Together group = takeGroup();
       if (group.stamp < ins_->stamp()) {
-        for (const auto& one : group.readings) report(one, Verdict::Stale, output);
+        for (const auto& one : group.readings) output.audits.push_back(ins::refusal(one, Verdict::Stale, "older than the inertial unit's last reading"));
         continue;
       }
-      advance(reading, group.stamp);
-      predict();
+      advance(reading, group.stamp, gap);
       fuse(group, output);
-      if (group.stamp == reading.stamp) covariance = solutionCovariance();
     }
-    advance(reading, reading.stamp);
+    advance(reading, reading.stamp, gap);
+    if (!covariance_) covariance_ = covarianceOf(filter_->belief());
     if (smooth_)
-      output.solutions.push_back({ins_->stamp(), track_->state(), true, true, std::nullopt});
+      output.solutions.push_back({ins_->stamp(), track_->state(), true, true, std::nullopt, rateOverGround()});
     else
-      output.solutions.push_back({ins_->stamp(), fused(), true, true, covariance});
+      output.solutions.push_back({ins_->stamp(), fused(), true, true, covariance_, rateOverGround()});
     return verdict;
   }
 
@@ -95,74 +102,100 @@ class Navigator final : public ins::Estimator {
     return group;
   }
 
-  void advance(const ImuReading& reading, Stamp stamp) {
+  void advance(const ImuReading& reading, Stamp stamp, double gap) {
     const double dt = secondsBetween(ins_->stamp(), stamp);
     ins_->advance(reading, stamp);
     if (!(dt > 0)) return;
     felt_.add(reading.rate_body, reading.force_body, dt);
-    if (felt_.duration() > config_.longest_step - 1e-9) predict();
+    if (gap > 0) gap_variance_ += BridgedGap{}.variance(gap, dt);
+    if (gap > 0 || felt_.duration() > config_.longest_step - 1e-9) predict();
     if (smooth_) track_->move(fused(), dt);
   }
 
   void predict() {
     if (!(felt_.duration() > 0)) return;
     const Motion<N> motion(config_.parameters, predicted_from_, felt_);
-    filter_.predict(motion, motion.noiseRoot());
+    ownFilter().predict(motion, motion.noiseRoot(gap_variance_));
     mean_ = motion(mean_);
     predicted_from_ = ins_->state();
     felt_ = {};
+    gap_variance_.setZero();
+    covariance_.reset();
   }
 
   NavigationState fused() const { return View<N>(ins_->state()).corrected(meanNow()); }
   /// Between predictions the mean moves as the INS does.
   Vector<N> meanNow() const { return felt_.duration() > 0 ? Motion<N>(config_.parameters, predicted_from_, felt_)(mean_) : mean_; }
+  Vector<3> rateOverGround() const { return ins::rateOverGround(ins_->state(), ins_->rate_body()); }
 
   /// DVL and depth in four rows; one that was not read has a variance that hides it.
   void fuse(const Together& group, ins::Output& output) {
+    for (const auto& one : group.readings)
+      if (!fuses(one.sensor)) output.audits.push_back(ins::refusal(one, Verdict::Invalid, "this system does not fuse it"));
+    const auto *dvl = group.of(ins::Sensor::Dvl), *depth = group.of(ins::Sensor::Depth);
+    if (!dvl && !depth) return;
+    predict();
     const View<N> view(ins_->state());
-    const Parameters& p = config_.parameters;
-    const auto h = [&](const Vector<N>& x) -> Vector<4> { return (Vector<4>() << view.dvl(x, Vector<3>::Zero()), view.height(x)).finished(); };
-    Vector<4> z = h(mean_), variance = Vector<4>::Constant(kNotRead);
-    if (const auto* dvl = group.of(ins::Sensor::Dvl)) {
+    Parameters& p = config_.parameters;
+    Vector<4> z = Vector<4>::Zero(), variance = Vector<4>::Constant(kNotRead);
+    if (dvl) {
+      p.dvl_lever_body = dvl->lever_body.value_or(p.dvl_lever_body);
       z.head<3>() = dvl->velocity_body;
-      variance.head<3>() = p.dvl_white.cwiseAbs2();
+      variance.head<3>() = dvl->variance.value_or(p.dvl_white.cwiseAbs2());
     }
-    if (const auto* depth = group.of(ins::Sensor::Depth)) {
+    if (depth) {
+      p.depth_lever_body = depth->lever_body.value_or(p.depth_lever_body);
       z(3) = depth->fix.height;
-      variance(3) = p.depth_white * p.depth_white;
+      variance(3) = depth->variance ? depth->variance->x() : p.depth_white * p.depth_white;
     }
-    const auto update = filter_.template update<4>(z, h, Matrix<4>(variance.asDiagonal()));
-    filter_.replace([&](const Vector<N>& x) { return view.constrained(x); });
-    mean_ = filter_.belief().mean;
+    const Vector<3> turning_body = rateOverGround().cross(p.dvl_lever_body);
+    const auto h = [&](const Vector<N>& x) -> Vector<4> { return (Vector<4>() << view.dvl(x, turning_body), view.height(x, p.depth_lever_body)).finished(); };
+    const Vector<4> expected = h(mean_);
+    if (!dvl) z.head<3>() = expected.head<3>();
+    if (!depth) z(3) = expected(3);
+    Filter& filter = ownFilter();
+    const auto update = filter.template update<4>(z, h, Matrix<4>(variance.asDiagonal()));
+    filter.replace([&](const Vector<N>& x) { return view.constrained(x); });
+    const Gaussian<N> belief = filter.belief();
+    mean_ = belief.mean;
+    covariance_ = covarianceOf(belief);
     if (smooth_) track_->jump(fused());
-    for (const auto& one : group.readings) output.audits.push_back(auditOf(one, update));
+    for (const auto& one : group.readings)
+      if (fuses(one.sensor)) output.audits.push_back(auditOf(one, update));
   }
 
-  static ins::Audit auditOf(const ins::Aiding& reading, const ParticleUpdate<4>& update) {
-    ins::Audit audit{reading.stamp, reading.sensor, Verdict::Invalid};
-    if (reading.sensor == ins::Sensor::Gps) return audit;  // this system has none
+  static bool fuses(ins::Sensor sensor) { return sensor == ins::Sensor::Dvl || sensor == ins::Sensor::Depth; }
+
+  ins::Audit auditOf(const ins::Aiding& reading, const ParticleUpdate<4>& update) const {
+    ins::Audit audit{reading.stamp, reading.sensor, update.verdict};
     const int rows = rowsOf(reading.sensor), first = reading.sensor == ins::Sensor::Dvl ? 0 : 3;
-    const Eigen::VectorXd innovation = update.innovation.segment(first, rows);
-    audit.verdict = update.verdict;
-    audit.nis = innovation.dot(update.S.block(first, first, rows, rows).llt().solve(innovation));
+    audit.innovation.head(rows) = update.innovation.segment(first, rows);
+    audit.S.topLeftCorner(rows, rows) = update.S.block(first, first, rows, rows);
+    audit.nis = audit.innovation.head(rows).dot(audit.S.topLeftCorner(rows, rows).llt().solve(audit.innovation.head(rows)));
     audit.weights.head(rows) = update.weights.segment(first, rows);
-    audit.effective_size = update.effective_size;
+    if (filter_->particles().size() > 1) audit.effective_size = update.effective_size;
+    if (update.verdict == Verdict::Invalid) audit.reason = "no particle explains it; all are kept";
     return audit;
   }
-  static void report(const ins::Aiding& reading, Verdict verdict, ins::Output& output) { output.audits.push_back({reading.stamp, reading.sensor, verdict}); }
 
-  Matrix<9> solutionCovariance() const {
-    const Gaussian<N> belief = filter_.belief();
-    const Matrix<9, N> T = View<N>(ins_->state()).solutionByError(belief.mean);
+  Matrix<9> covarianceOf(const Gaussian<N>& belief) const {
+    const Matrix<9, N> T = View<N>(predicted_from_).solutionByError(belief.mean);
     return T * belief.covariance * T.transpose();
   }
 
-  Filter filter_;
+  Filter& ownFilter() {
+    if (filter_.use_count() > 1) filter_ = std::make_shared<Filter>(*filter_);
+    return *filter_;
+  }
+
+  std::shared_ptr<Filter> filter_;
   Config config_;
   std::optional<Mechanisation> ins_;
-  NavigationState predicted_from_;  // the INS at the filter's last prediction
-  Preintegration felt_;             // since then
+  NavigationState predicted_from_;              // the INS at the filter's last prediction
+  Preintegration felt_;                         // since then
+  Vector<9> gap_variance_ = Vector<9>::Zero();  // likewise, of gaps of the inertial unit
   Vector<N> mean_ = Vector<N>::Zero();
+  std::optional<Matrix<9>> covariance_;  // of the solution
   std::deque<ins::Aiding> waiting_;
   bool smooth_;
   std::optional<SmoothTrack> track_;

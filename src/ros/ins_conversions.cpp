@@ -28,9 +28,9 @@ Aiding begin(const ros::Time& stamp, Sensor sensor, const InsMount& mount, const
   return reading;
 }
 
-Vector<3> believed(const Vector<3>& stated, const Vector<3>& sigma, const MessageOptions& options) {
+Vector<3> believed(const Vector<3>& stated, const MessageOptions& options) {
   Vector<3> variance;
-  for (int row = 0; row < 3; ++row) variance(row) = believedVariance(stated(row), sigma(row), options.floor, options.override_message);
+  for (int row = 0; row < 3; ++row) variance(row) = believedVariance(stated(row), options.white(row), options.floor, options.override_message);
   return variance;
 }
 
@@ -73,7 +73,7 @@ std::optional<Aiding> readingOf(const sensor_msgs::NavSatFix& fix, const InsMoun
   const bool known = fix.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
   const auto& P = fix.position_covariance;
   const Vector<3> stated = known ? Vector<3>(P[0], P[4], P[8]) : Vector<3>(-1, -1, -1);
-  reading.variance = believed(stated, settings.session.config.parameters.gps_white, settings.of(Sensor::Gps));
+  reading.variance = believed(stated, settings.of(Sensor::Gps));
   return reading;
 }
 
@@ -85,9 +85,17 @@ std::optional<Aiding> readingOf(const geometry_msgs::TwistWithCovarianceStamped&
   Aiding reading = begin(twist.header.stamp, Sensor::Dvl, mount, settings);
   const Matrix<3> C_body_dvl = bodyFromRosBody() * mount.T_base_sensor.linear();
   reading.velocity_body = C_body_dvl * velocity;
-  const Vector<3> white = Vector<3>::Constant(settings.session.config.parameters.dvl_white);
-  reading.variance = C_body_dvl.cwiseAbs2() * believed(stated, white, settings.of(Sensor::Dvl));
+  reading.variance = C_body_dvl.cwiseAbs2() * believed(stated, settings.of(Sensor::Dvl));
   return reading;
+}
+
+std::optional<GroundVelocity> groundVelocityOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const ins::Settings& settings) {
+  const Vector<3> velocity = vectorOf(twist.twist.twist.linear);
+  const auto& P = twist.twist.covariance;
+  const double variance = std::max({P[0], P[7], P[14]});
+  if (!(velocity.norm() <= kFastest)) return std::nullopt;
+  const double sigma = usableVariance(variance) ? std::sqrt(variance) : settings.session.config.parameters.start_velocity;
+  return GroundVelocity{stampOf(twist.header.stamp) + stampFromSeconds(settings.of(Sensor::Gps).time_offset), velocity, sigma};
 }
 
 std::optional<Aiding> readingOf(const geometry_msgs::PoseWithCovarianceStamped& depth, const InsMount& mount, const ins::Settings& settings) {
@@ -95,8 +103,7 @@ std::optional<Aiding> readingOf(const geometry_msgs::PoseWithCovarianceStamped& 
   if (!std::isfinite(z)) return std::nullopt;
   Aiding reading = begin(depth.header.stamp, Sensor::Depth, mount, settings);
   reading.fix.height = settings.surface + z;
-  const Vector<3> white = Vector<3>::Constant(settings.session.config.parameters.depth_white);
-  reading.variance = believed(Vector<3>::Constant(depth.pose.covariance[14]), white, settings.of(Sensor::Depth));
+  reading.variance = believed(Vector<3>::Constant(depth.pose.covariance[14]), settings.of(Sensor::Depth));
   return reading;
 }
 
@@ -153,6 +160,10 @@ sensor_msgs::NavSatFix fixOf(const Solution& solution, const InsSettings& settin
   return fix;
 }
 
-sas_motion::FilterUpdate updateOf(const ins::Audit& audit) { return filterUpdateOf(audit, sensorName(audit.sensor), rowsOf(audit.sensor)); }
+sas_motion::FilterUpdate updateOf(const ins::Audit& audit) {
+  auto update = filterUpdateOf(audit, sensorName(audit.sensor), rowsOf(audit.sensor));
+  update.effective_size = audit.effective_size;
+  return update;
+}
 
 }  // namespace sas_motion::ros_side

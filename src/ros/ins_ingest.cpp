@@ -11,6 +11,8 @@ InsIngest::InsIngest(const InsSettings& settings, const tf2::BufferCore& transfo
   enable(kFix, ins::Sensor::Gps);
   enable(kTwist, ins::Sensor::Dvl);
   enable(kDepth, ins::Sensor::Depth);
+  inbox_.mayFallSilent(kVelocity);
+  if (!settings.estimation.session.alignment.fixes_aid) inbox_.mayFallSilent(kFix);
 }
 
 void InsIngest::take(const sensor_msgs::Imu& message) {
@@ -38,5 +40,13 @@ void InsIngest::takeAiding(const Message& message, Source source) {
 void InsIngest::take(const sensor_msgs::NavSatFix& message) { takeAiding(message, kFix); }
 void InsIngest::take(const geometry_msgs::TwistWithCovarianceStamped& message) { takeAiding(message, kTwist); }
 void InsIngest::take(const geometry_msgs::PoseWithCovarianceStamped& message) { takeAiding(message, kDepth); }
+
+void InsIngest::takeVelocity(const geometry_msgs::TwistWithCovarianceStamped& message) {
+  if (!inbox_.count(message.header, kVelocity)) return;
+  if (const auto velocity = groundVelocityOf(message, settings_.estimation))
+    sink_(*velocity);
+  else
+    inbox_.countUnusable(kVelocity);
+}
 
 }  // namespace sas_motion::ros_side

@@ -12,7 +12,8 @@ namespace {
 constexpr double kWrongRate = 0.05;  // share by which the inertial unit's rate may differ from the configuration's
 
 std::string topicOf(std::size_t source, const InsSettings& settings) {
-  const std::array<const std::string*, InsIngest::kSources> topics{&settings.fix_topic, &settings.imu_topic, &settings.twist_topic, &settings.depth_topic};
+  const std::array<const std::string*, InsIngest::kSources> topics{&settings.fix_topic, &settings.imu_topic, &settings.twist_topic, &settings.depth_topic,
+                                                                   &settings.velocity_topic};
   return *topics[source];
 }
 

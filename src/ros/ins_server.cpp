@@ -5,9 +5,13 @@
 #include <algorithm>
 
 #include "sas_motion/ros/ins_remarks.hpp"
-#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 
 namespace sas_motion::ros_side {
+namespace {
+
+constexpr double kFewParticles = 5;  // of which fewer say nothing of how sure they are
+
+}  // namespace
 
 InsServer::InsServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : node_(node), own_(own) {
   std::string config;
@@ -17,12 +21,14 @@ InsServer::InsServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : 
   readParameter(own_, "imu_topic", settings_.imu_topic);
   readParameter(own_, "twist_topic", settings_.twist_topic);
   readParameter(own_, "depth_topic", settings_.depth_topic);
+  readParameter(own_, "velocity_topic", settings_.velocity_topic);
   readParameter(own_, "publish_tf", publish_tf_);
   readParameter(own_, "idle_timeout", idle_timeout_);
+  names_ = {settings_.preferred};
   readParameter(own_, "estimators", names_);
   for (const auto& name : names_) {
-    if (!ins::makeAnyEstimator(name, settings_.estimation.session.config))
-      throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name, fmt::join(ins::anyEstimatorNames(), ", ")));
+    if (!settings_.make(name, settings_.estimation.session.config))
+      throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name, fmt::join(settings_.estimators, ", ")));
     if (std::count(names_.begin(), names_.end(), name) > 1) throw ConfigError(fmt::format("~estimators: '{}' is there twice; name each once", name));
     const OutputRate rate(settings_.estimation.output_rate);
     lanes_.push_back({name,
@@ -38,10 +44,11 @@ InsServer::InsServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : 
   datum_publisher_ = node_.advertise<sensor_msgs::NavSatFix>("datum", 1, true);
   listener_ = std::make_unique<tf2_ros::TransformListener>(transforms_, node_);
   startAnew();
-  subscribe<sensor_msgs::Imu>(settings_.imu_topic);
-  subscribe<sensor_msgs::NavSatFix>(settings_.fix_topic);
-  subscribe<geometry_msgs::TwistWithCovarianceStamped>(settings_.twist_topic);
-  subscribe<geometry_msgs::PoseWithCovarianceStamped>(settings_.depth_topic);
+  subscribe<sensor_msgs::Imu>(settings_.imu_topic, &InsIngest::take);
+  subscribe<sensor_msgs::NavSatFix>(settings_.fix_topic, &InsIngest::take);
+  subscribe<geometry_msgs::TwistWithCovarianceStamped>(settings_.twist_topic, &InsIngest::take);
+  subscribe<geometry_msgs::PoseWithCovarianceStamped>(settings_.depth_topic, &InsIngest::take);
+  if (!settings_.velocity_topic.empty()) subscribe<geometry_msgs::TwistWithCovarianceStamped>(settings_.velocity_topic, &InsIngest::takeVelocity);
   services_ = {own_.advertiseService("reset", &InsServer::onReset, this), own_.advertiseService("enable_sensor", &InsServer::onEnableSensor, this),
                own_.advertiseService("get_state_at", &InsServer::onGetStateAt, this)};
 
@@ -54,12 +61,15 @@ InsServer::InsServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : 
 }
 
 template <class Message>
-void InsServer::subscribe(const std::string& topic) {
-  subscribers_.push_back(node_.subscribe<Message>(topic, kQueue, &InsServer::onMessage<Message>, this, ros::TransportHints().tcpNoDelay()));
+void InsServer::subscribe(const std::string& topic, void (InsIngest::*take)(const Message&)) {
+  const boost::function<void(const boost::shared_ptr<Message const>&)> onMessage = [this, take](const boost::shared_ptr<Message const>& message) {
+    receive([&] { (*ingest_.*take)(*message); });
+  };
+  subscribers_.push_back(node_.subscribe<Message>(topic, kQueue, onMessage, {}, ros::TransportHints().tcpNoDelay()));
 }
 
 void InsServer::startAnew() {
-  session_ = std::make_unique<ins::LiveSession>(settings_.estimation.session, names_, ins::makeAnyEstimator);
+  session_ = std::make_unique<ins::LiveSession>(settings_.estimation.session, names_, settings_.make);
   auto fresh = std::make_unique<InsIngest>(settings_, transforms_, [this](const ins::Reading& reading) { session_->process(reading); });
   if (ingest_) {
     if (ingest_->frame()) fresh->setDatum(ingest_->frame()->datum());
@@ -71,15 +81,16 @@ void InsServer::startAnew() {
     lane.audits.clear();
     lane.verdicts.fill(0);
     lane.published = 0;
+    lane.effective_size = 0;
   }
 }
 
-template <class Message>
-void InsServer::onMessage(const boost::shared_ptr<Message const>& message) {
+template <class Ingest>
+void InsServer::receive(const Ingest& ingest) {
   const ros::WallTime begin = ros::WallTime::now();
   last_message_ = begin;
   open_ = true;
-  ingest_->take(*message);
+  ingest();
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) publishNow(lane);
   latency_.add((ros::WallTime::now() - begin).toSec());
   queueSettled();
@@ -111,6 +122,7 @@ void InsServer::queueSettled() {
       if (lane.settled_rate.due(solution.stamp)) lane.solutions.push_back(ofBase(solution));
     for (const auto& audit : output.audits) {
       ++lane.verdicts[static_cast<std::size_t>(audit.verdict)];
+      lane.effective_size = audit.effective_size;
       lane.audits.push_back(audit);
     }
     output.clear();
@@ -156,12 +168,20 @@ void InsServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   for (const auto& remark : remarksOn(inertial, ingest_->inbox(), settings_)) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, remark);
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     diagnoseVerdicts(lanes_[i].name, lanes_[i].verdicts, status);
+    diagnoseParticles(lanes_[i], status);
     const auto& now = session_->current(i);
     if (!now || !now->covariance) continue;
     const auto variance = now->covariance->diagonal().segment<2>(ins::kPosition);
     status.addf(lanes_[i].name + " 2-sigma position [m]", "%.3f", 2 * std::sqrt(variance.sum()));
   }
   diagnoseLatency(latency_, callback_, status);
+}
+
+void InsServer::diagnoseParticles(const Lane& lane, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (!(lane.effective_size > 0)) return;
+  status.addf(lane.name + " effective particles", "%.0f", lane.effective_size);
+  if (lane.effective_size < kFewParticles)
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, lane.name + " has next to all weight on a few particles; its covariance is not to be trusted");
 }
 
 bool InsServer::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

@@ -32,7 +32,8 @@ void diagnoseSource(const MessageCounts& counts, bool enabled, const std::string
   status.addf(name + " without a reading", "%lu", counts.unusable);
   status.addf(name + " while disabled", "%lu", counts.disabled);
   if (counts.messages > 0) status.addf(name + " age [s]", "%.2f", secondsBetween(counts.newest, newest));
-  if (counts.messages > 0 && secondsBetween(counts.newest, newest) > kSilent) status.mergeSummary(DiagnosticStatus::WARN, name + " is silent");
+  const bool expected = counts.messages > 0 && !counts.may_fall_silent;
+  if (expected && secondsBetween(counts.newest, newest) > kSilent) status.mergeSummary(DiagnosticStatus::WARN, name + " is silent");
   if (!enabled) status.mergeSummary(DiagnosticStatus::WARN, name + " is disabled");
   if (counts.unknown_frame > 0) status.mergeSummary(DiagnosticStatus::ERROR, name + " has a frame without a transform to " + settings.base_frame);
   if (counts.lost > 0) status.mergeSummary(DiagnosticStatus::WARN, fmt::format("{} messages of {} lost", counts.lost, name));

@@ -2,37 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/simulation/sins_scenario.hpp"
 
+#include "sas_motion/config/sins_config.hpp"
 #include "sas_motion/config/yaml_vector.hpp"
 
 namespace sas_motion::sins {
 namespace {
 
-void readImu(YamlSection yaml, Scenario& scenario) {
-  Parameters& p = scenario.parameters;
-  yaml.number("rate", scenario.imu_rate, {10, 1e4});
-  readScaled(yaml, "gyro_constant_deg_h", p.gyro_constant, kDegPerHour, {kTiny, 1e3});
-  readScaled(yaml, "angle_random_walk_deg_sqrt_h", p.angle_random_walk, kRadPerDeg / 60, {kTiny, 10});
-  readScaled(yaml, "accelerometer_constant_ug", p.accelerometer_constant, kMicroG, {kTiny, 1e5});
-  readScaled(yaml, "velocity_random_walk_ug_sqrt_s", p.velocity_random_walk, kMicroG, {kTiny, 1e5});
-  yaml.finish();
-}
-
-void readReadings(YamlSection& yaml, ins::Scenario::Readings& readings) {
+void readReadings(YamlSection& yaml, ins::Scenario::Readings& readings, Vector<3>& lever_body) {
   yaml.number("rate", readings.rate, {0.001, 1e3});
+  readVector<3>(yaml, "lever_arm", lever_body, -1e3);
   readings.noise = ins::Scenario::readNoise(yaml, "noise");
   readings.outages = ins::Scenario::readOutages(yaml, "outages");
   yaml.finish();
-}
-
-void readDvl(YamlSection yaml, Scenario& scenario) {
-  Parameters& p = scenario.parameters;
-  yaml.number("offset", p.dvl_offset, {kTiny, 10});
-  yaml.number("offset_time", p.dvl_offset_time, {1, 1e7});
-  readScaled(yaml, "scale_percent", p.dvl_scale, 0.01, {kTiny, 50});
-  yaml.angle("angle_deg", p.dvl_angle, {kTiny, 45});
-  yaml.number("angle_time", p.dvl_angle_time, {1, 1e7});
-  readVector<3>(yaml, "white", p.dvl_white, kTiny);
-  readReadings(yaml, scenario.dvl);
 }
 
 void readStart(YamlSection yaml, Scenario& scenario) {
@@ -56,11 +37,16 @@ Scenario Scenario::read(YamlSection yaml) {
   yaml.text("name", scenario.name);
   yaml.number("duration", scenario.duration, {1, 1e6});
   ins::readTrack(yaml, scenario.track);
-  readImu(yaml.section("imu"), scenario);
-  readDvl(yaml.section("dvl"), scenario);
+  Parameters& p = scenario.parameters;
+  auto imu = yaml.section("imu");
+  readImuErrors(imu, p, scenario.imu_rate);
+  imu.finish();
+  auto dvl = yaml.section("dvl");
+  readDvlErrors(dvl, p);
+  readReadings(dvl, scenario.dvl, p.dvl_lever_body);
   auto depth = yaml.section("depth");
-  depth.number("white", scenario.parameters.depth_white, {kTiny, 1e3});
-  readReadings(depth, scenario.depth);
+  depth.number("white", p.depth_white, {kTiny, 1e3});
+  readReadings(depth, scenario.depth, p.depth_lever_body);
   readStart(yaml.section("initial"), scenario);
   yaml.finish();
   return scenario;

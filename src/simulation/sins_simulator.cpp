@@ -38,11 +38,13 @@ class Dvl {
     errors_(kDvlAngle) = p.dvl_angle * random_.gaussian();
   }
 
-  ins::Aiding read(const NavigationState& truth, const Vector<3>& noise) {
+  ins::Aiding read(const ins::TruthSample& truth, const Vector<3>& noise) {
     wander(errors_(kDvlOffset), p_.dvl_offset, p_.dvl_offset_time);
     wander(errors_(kDvlAngle), p_.dvl_angle, p_.dvl_angle_time);
+    const Vector<3> turning_body = ins::rateOverGround(truth.state, truth.rateBody()).cross(p_.dvl_lever_body);
     ins::Aiding reading;
-    reading.velocity_body = View<kPaperStates>(truth).dvl(errors_, Vector<3>::Zero()) + p_.dvl_white.cwiseProduct(noise);
+    reading.velocity_body = View<kPaperStates>(truth.state).dvl(errors_, turning_body) + p_.dvl_white.cwiseProduct(noise);
+    reading.variance = p_.dvl_white.cwiseAbs2();
     return reading;
   }
 
@@ -65,7 +67,7 @@ void readAlong(const ins::Trajectory& trajectory, double duration, const ins::Sc
   ins::AidingSource source(readings, sensor, seed);
   for (long k = 1; static_cast<double>(k) / readings.rate <= duration + 1e-9; ++k) {
     const double time = static_cast<double>(k) / readings.rate;
-    const NavigationState truth = trajectory.at(time).state;
+    const ins::TruthSample truth = trajectory.at(time);
     source.read(
         time, [&](const Vector<3>& noise) { return make(truth, noise); }, all);
   }
@@ -93,6 +95,8 @@ ins::Scenario withoutGps(const Scenario& scenario) {
   q.dvl_white = p.dvl_white.x();
   q.dvl_rate = scenario.dvl.rate;
   q.depth_white = p.depth_white;
+  q.dvl_lever_body = p.dvl_lever_body;
+  q.depth_lever_body = p.depth_lever_body;
   q.start_position = p.start_position;
   q.start_velocity = p.start_velocity;
   q.start_tilt = p.start_tilt;
@@ -109,12 +113,12 @@ ins::Recording simulate(const Scenario& scenario, const ins::Trajectory& traject
   unit.gyro_markov = 0;
   ins::addImuErrors(run.imu, unit, seed);
   Dvl dvl(p, 1 / scenario.dvl.rate, seed);
-  const auto readDvl = [&](const NavigationState& truth, const Vector<3>& noise) { return dvl.read(truth, noise); };
+  const auto readDvl = [&](const ins::TruthSample& truth, const Vector<3>& noise) { return dvl.read(truth, noise); };
   readAlong(trajectory, scenario.duration, scenario.dvl, ins::Sensor::Dvl, seed, readDvl, run.aiding);
-  const auto readDepth = [&](const NavigationState& truth, const Vector<3>& noise) {
+  const auto readDepth = [&](const ins::TruthSample& truth, const Vector<3>& noise) {
     ins::Aiding reading;
-    reading.fix = truth;
-    reading.fix.height += p.depth_white * noise(0);
+    reading.fix = truth.state;
+    reading.fix.height += (truth.state.q_nav_body * p.depth_lever_body).z() + p.depth_white * noise(0);
     return reading;
   };
   readAlong(trajectory, scenario.duration, scenario.depth, ins::Sensor::Depth, seed, readDepth, run.aiding);

@@ -41,9 +41,18 @@ double squared(double value) { return value * value; }
 }  // namespace
 
 InsRecorder::InsRecorder(const Scenario& scenario, std::uint64_t seed, BagOutput& bag)
+    : InsRecorder(
+          scenario, [&](const Trajectory& trajectory) { return simulate(scenario, trajectory, seed); }, true, bag) {}
+
+InsRecorder::InsRecorder(const sins::Scenario& scenario, std::uint64_t seed, BagOutput& bag)
+    : InsRecorder(
+          withoutGps(scenario), [&](const Trajectory& trajectory) { return sins::simulate(scenario, trajectory, seed); }, false, bag) {}
+
+InsRecorder::InsRecorder(const Scenario& scenario, const Simulate& simulate, bool with_gps, BagOutput& bag)
     : scenario_(scenario),
       trajectory_(scenario.track, scenario.duration),
-      recording_(simulate(scenario, trajectory_, seed)),
+      recording_(simulate(trajectory_)),
+      with_gps_(with_gps),
       bag_(bag),
       frame_(scenario.track.start),
       T_base_dvl_(at(scenario.parameters.dvl_lever_body)),
@@ -54,6 +63,7 @@ InsRecorder::InsRecorder(const Scenario& scenario, std::uint64_t seed, BagOutput
 void InsRecorder::record(const std::function<void(double)>& progress) {
   transforms();
   truth(0);
+  if (!with_gps_) start();
   auto next = recording_.aiding.begin();
   const long every = std::max(1L, std::lround(scenario_.imu_rate / kTruthRate));
   for (std::size_t k = 1; k < recording_.imu.size(); ++k) {  // the first has no interval
@@ -63,6 +73,20 @@ void InsRecorder::record(const std::function<void(double)>& progress) {
     if (static_cast<long>(k) % every == 0) truth(secondsBetween(0, reading.stamp));
     progress(1 / scenario_.imu_rate);
   }
+}
+
+/// The INS starts at the first attitude before a fix: here that of the first reading of its unit.
+void InsRecorder::start() {
+  const Stamp begin = recording_.imu.front().stamp, after = begin + stampFromSeconds(0.5 / scenario_.imu_rate);
+  auto& seq = seq_[static_cast<std::size_t>(Sensor::Gps)];
+  std::uint32_t first = 0;
+  velocity(recording_.start.velocity_nav, header(begin, "", first));
+  inertial(recording_.imu.front());
+  Aiding reading;
+  reading.fix = recording_.start;
+  displace(reading.fix, secondsBetween(begin, after) * recording_.start.velocity_nav);
+  reading.variance = scenario_.parameters.start_position.cwiseAbs2();
+  fix(reading, header(after, kFrames[0], seq));
 }
 
 void InsRecorder::transforms() {
@@ -128,16 +152,27 @@ void InsRecorder::aiding(const LabelledAiding& labelled) {
 void InsRecorder::fix(const Aiding& reading, std_msgs::Header header) {
   sensor_msgs::NavSatFix message = fixAt(geodeticOf(reading.fix), header.frame_id, header.stamp);
   message.header = header;
-  const Vector<3> variance = scenario_.parameters.gps_white.cwiseAbs2();
+  const Vector<3> variance = reading.variance.value_or(scenario_.parameters.gps_white.cwiseAbs2());
   message.position_covariance = diagonal(variance.x(), variance.y(), variance.z());
   bag_.write(settings_.fix_topic, header.stamp, message);
+}
+
+void InsRecorder::velocity(const Vector<3>& velocity_nav, std_msgs::Header header) {
+  geometry_msgs::TwistWithCovarianceStamped message;
+  message.header = header;
+  message.header.frame_id = settings_.map_frame;
+  set(message.twist.twist.linear, velocity_nav);
+  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i < 3 ? squared(scenario_.parameters.start_velocity) : kUnstated;
+  bag_.write("gnss/velocity", header.stamp, message);
 }
 
 void InsRecorder::twist(const Aiding& reading, std_msgs::Header header) {
   geometry_msgs::TwistWithCovarianceStamped message;
   message.header = header;
-  set(message.twist.twist.linear, T_base_dvl_.linear().transpose() * (bodyFromRosBody().transpose() * reading.velocity_body));
-  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i < 3 ? squared(scenario_.parameters.dvl_white) : kUnstated;
+  const Matrix<3> C_dvl_body = T_base_dvl_.linear().transpose() * bodyFromRosBody().transpose();
+  set(message.twist.twist.linear, C_dvl_body * reading.velocity_body);
+  const Vector<3> white = Vector<3>::Constant(squared(scenario_.parameters.dvl_white)), variance = C_dvl_body.cwiseAbs2() * reading.variance.value_or(white);
+  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i < 3 ? variance(static_cast<Eigen::Index>(i)) : kUnstated;
   bag_.write(settings_.twist_topic, header.stamp, message);
 }
 

@@ -14,6 +14,7 @@
 #include "main_guard.hpp"
 #include "sas_motion/bag/recording.hpp"
 #include "sas_motion/bag/tum.hpp"
+#include "sas_motion/math/statistics.hpp"
 
 namespace {
 
@@ -25,6 +26,7 @@ using nlohmann::json;
 constexpr std::size_t kMostPoints = 6000;  // of one plotted series
 constexpr double kShortestOutage = 30;     // a gap between fixes that is reported as an outage [s]
 constexpr double kNotEstimated = 1e6;      // variance of what an estimator does not have
+constexpr double kAligned = 2;             // a heading that is off by less is aligned [deg]
 
 struct Options {
   std::string bag, out;
@@ -90,6 +92,7 @@ class Judge {
     json m = describe(scorer.scores(), outages(recording_, estimator), cost);
     addMotions(motions.scores(), m);
     addAudits(estimator, from, m);
+    if (const json alignment = alignmentOf(estimator); !alignment.is_null()) m["alignment"] = alignment;
     return m;
   }
 
@@ -125,13 +128,28 @@ class Judge {
     }
   }
 
+  /// When the heading, skipped or not, came within kAligned for good; null where it always was, never where it did not.
+  json alignmentOf(const RecordedEstimator& estimator) const {
+    std::optional<double> last_off, last;
+    for (const auto& estimate : estimator.estimates) {
+      const auto truth = recording_.truthAt(estimate.stamp);
+      if (!truth || !truth->heading_known || !(estimate.belief.covariance(kHeading, kHeading) < kNotEstimated)) continue;
+      last = secondsBetween(recording_.begin, estimate.stamp);
+      if (std::abs(Model::difference(estimate.belief.mean, truth->state)(kHeading)) > kAligned * kRadPerDeg) last_off = last;
+    }
+    if (!last_off) return nullptr;
+    return {{"within_deg", kAligned}, {"after", *last_off < *last ? json(*last_off) : json(nullptr)}};
+  }
+
   /// What became of each sensor's measurements.
   void addAudits(const RecordedEstimator& estimator, Stamp from, json& m) const {
     std::map<std::string, AuditTally> tallies;
     std::map<std::string, double> degrees;
     std::array<std::size_t, 5> verdicts{};
+    std::vector<double> effective_sizes;
     for (const auto& audit : estimator.audits) {
       if (audit.stamp < from) continue;
+      if (audit.effective_size > 0) effective_sizes.push_back(audit.effective_size);
       ++verdicts[static_cast<std::size_t>(audit.verdict)];
       if (audit.rows == 0) continue;
       const auto label = recording_.outlier.find({audit.stamp, audit.sensor});
@@ -152,6 +170,7 @@ class Judge {
       all.hits += tally.detection.hits;
     }
     if (recording_.labelled()) m["outliers"]["all"] = toJson(all);
+    if (!effective_sizes.empty()) m["effective_particles"] = quantile(effective_sizes, 0.5);
     m["verdicts"] = {{"accepted", verdicts[0]}, {"down_weighted", verdicts[1]}, {"rejected", verdicts[2]}, {"stale", verdicts[3]}, {"invalid", verdicts[4]}};
   }
 
@@ -210,8 +229,10 @@ json seriesOf(const Recording& recording, const RecordedEstimator& estimator) {
   std::map<std::string, Series> updates;
   for (const auto& audit : estimator.audits) {
     if (audit.rows == 0) continue;
-    auto& series = updates.try_emplace(audit.sensor, std::initializer_list<const char*>{"t", "weight", "nis"}, estimator.audits.size() / 3).first->second;
-    series.add({secondsBetween(recording.begin, audit.stamp), audit.least_weight, audit.nis.value_or(0)}, audit.least_weight < kDownWeighted);
+    auto& series = updates.try_emplace(audit.sensor, std::initializer_list<const char*>{"t", "weight", "nis", "effective_size"}, estimator.audits.size() / 3)
+                       .first->second;
+    series.add({secondsBetween(recording.begin, audit.stamp), audit.least_weight, audit.nis.value_or(0), audit.effective_size},
+               audit.least_weight < kDownWeighted);
   }
   for (const auto& [sensor, series] : updates) all["updates"][sensor] = series.columns();
   return all;

@@ -60,7 +60,8 @@ void run(const Options& options) {
   if (system.empty()) return simulateTowfish(options);
   if (system == "usbl") return simulateBy<usbl::Scenario, UsblRecorder>(options);
   if (system == "ins_gps_dvl") return simulateBy<ins::Scenario, InsRecorder>(options);
-  yaml.fail("system", "is '" + system + "' but must be usbl or ins_gps_dvl, or left out for a towfish");
+  if (system == "sins_dvl") return simulateBy<sins::Scenario, InsRecorder>(options);
+  yaml.fail("system", "is '" + system + "' but must be usbl, ins_gps_dvl or sins_dvl, or left out for a towfish");
 }
 
 }  // namespace
@@ -71,7 +72,8 @@ int main(int argc, char** argv) {
       "Simulates a scenario into a bag. A towfish's: gnss/fix, imu/data, dvl/twist, /tf_static, and truth/odometry, truth/fix, truth/current, truth/label. "
       "With 'system: usbl', a calibration's: gnss/fix, imu/data, usbl/measurement, usbl/transponder, /tf_static, and truth/odometry, truth/label, "
       "truth/usbl_mounting. With 'system: ins_gps_dvl', a survey's: gnss/fix, imu/data, dvl/twist, depth/pose, /tf_static, and truth/odometry, truth/fix, "
-      "truth/label.",
+      "truth/label. With 'system: sins_dvl', a towed body's: imu/data, dvl/twist, depth/pose, /tf_static, one gnss/fix and one gnss/velocity at the start, and "
+      "truth/odometry, truth/fix, truth/label.",
       "simulate");
   app.add_option("SCENARIO", options.scenario, "scenario to play (YAML)")->required();
   app.add_option("-o,--output", options.out, "bag to write")->required();

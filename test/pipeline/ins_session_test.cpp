@@ -100,6 +100,20 @@ TEST(InsSession, SaysWhatTheStartLacks) {
   EXPECT_EQ(lackOf(without(stream, early), options), Lack::FixAfterAttitude);
 }
 
+TEST(InsSession, AVelocityOfGnssStartsItAsSurelyAsItSays) {
+  // GIVEN no DVL, WHEN GNSS knows the velocity, THEN the start does not wait, and is as sure as GNSS
+  const Scenario scenario = surveyOf(20);
+  auto stream = without(streamOf(scenario, 1), [](const Reading& r) { return isOf(r, Sensor::Dvl); });
+  const TruthSample truth = Trajectory(scenario.track, scenario.duration).at(0.9);
+  const Vector<3> turning = truth.rate_nav_body.cross(scenario.parameters.gps_lever_body);
+  const GroundVelocity velocity{kEpoch + stampFromSeconds(0.9), truth.state.velocity_nav + truth.state.q_nav_body * turning, 0.05};
+  stream.insert(std::find_if(stream.begin(), stream.end(), [&](const Reading& r) { return stampOf(r) >= velocity.stamp; }), velocity);
+  const Output output = settled(stream, optionsOf(scenario));
+  EXPECT_EQ(output.solutions.front().stamp, kEpoch + kNanosecondsPerSecond);
+  EXPECT_NEAR(std::sqrt((*output.solutions.front().covariance)(kVelocity, kVelocity)), 0.05, 0.005);
+  EXPECT_LT((output.solutions.front().state.velocity_nav - truth.state.velocity_nav).norm(), 0.1) << "the waves of a tenth of a second";
+}
+
 TEST(InsSession, WithoutBottomLockItStartsAtRestAndFindsItsVelocity) {
   const Scenario scenario = surveyOf(120);
   const auto stream = without(streamOf(scenario, 1), [](const Reading& r) { return isOf(r, Sensor::Dvl); });
@@ -200,10 +214,10 @@ TEST(InsSession, OneWrongStampChangesLittleAndAClockThatIsSetStartsAnew) {
       if (stampOf(reading) <= kEpoch + 30 * kNanosecondsPerSecond) continue;
       std::visit(
           [&](auto& r) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(r)>, Aiding>)
-              r.stamp += jump;
-            else
+            if constexpr (std::is_same_v<std::decay_t<decltype(r)>, InertialReading>)
               r.imu.stamp += jump;
+            else
+              r.stamp += jump;
           },
           reading);
     }

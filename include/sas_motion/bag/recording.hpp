@@ -27,6 +27,7 @@ struct RecordedAudit {
   double least_weight = 1;
   std::optional<double> nis;  ///< where the estimator has one
   Verdict verdict = Verdict::Accepted;
+  double effective_size = 0;  ///< of particles, where there are some
 };
 
 /// What one estimator wrote into a bag. The speed of its states is forward over ground.

@@ -18,14 +18,15 @@ struct SensorTopics {
   std::string fix, imu, twist;
 };
 struct InsTopics : SensorTopics {
-  std::string depth;
+  std::string depth, velocity;
 };
 
 /// Finds each sensor by its configured topic or, where the bag has no such topic, by its type when only one topic has it. Throws
 /// std::runtime_error where there is neither a position nor a heading, or where the choice is ambiguous.
 SensorTopics findTopics(const std::vector<BagConnection>& connections, const Settings& settings, const std::string& file);
 
-/// The same for a fusion of INS, GPS and DVL. Throws where a sensor that is enabled has no topic, and names all of those.
+/// The same for a system with an INS. Throws where a sensor that is enabled has no topic, and names all of those. The velocity of GNSS may be missing, and is
+/// found by its name alone.
 InsTopics findTopics(const std::vector<BagConnection>& connections, const InsSettings& settings, const std::string& file);
 
 /// Whether a topic is what one of these estimators, or the datum, wrote in an earlier run.

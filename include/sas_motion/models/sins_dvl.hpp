@@ -37,6 +37,8 @@ struct Parameters {
   double dvl_angle_time = 600;                         ///< correlation time [s]
   Vector<3> dvl_white{0.006, 0.006, 0.018};            ///< starboard, forward, up [m/s]
   double depth_white = 0.1;                            ///< [m]
+  Vector<3> dvl_lever_body = Vector<3>::Zero();        ///< from the INS [m]
+  Vector<3> depth_lever_body = Vector<3>::Zero();      ///< [m]
   Vector<3> start_position{0.06, 0.06, 1};             ///< east, north, up [m]
   double start_velocity = 0.05;                        ///< [m/s]
   double start_tilt = 0.05 * kRadPerDeg;               ///< [rad]
@@ -61,8 +63,9 @@ class Motion {
   Motion(const Parameters& parameters, const NavigationState& ins, const Preintegration& felt);
 
   Vector<N> operator()(const Vector<N>& x) const;
-  /// Lower triangular root of the noise over the interval. States that are constants get a little of it, so that it has full rank.
-  Matrix<N> noiseRoot() const;
+  /// Lower triangular root of the noise over the interval. States that are constants get a little of it, so that it has full rank. `besides`: more variance of
+  /// velocity, position and attitude errors [m^2/s^2, m^2, rad^2], east, north, up.
+  Matrix<N> noiseRoot(const Vector<9>& besides = Vector<9>::Zero()) const;
 
  private:
   NavigationState ins_, ins_moved_;
@@ -80,7 +83,8 @@ class View {
   NavigationState corrected(const Vector<N>& x) const;
   /// (B.5) on the DVL's axes; `turning_body` is its velocity by turning about the INS.
   Vector<3> dvl(const Vector<N>& x, const Vector<3>& turning_body) const;
-  double height(const Vector<N>& x) const { return ins_.height - x(kPosition + 2); }
+  /// Of the depth gauge, at a lever arm from the INS [m].
+  double height(const Vector<N>& x, const Vector<3>& lever_body) const;
   /// The same error with a true quaternion of length one.
   Vector<N> constrained(const Vector<N>& x) const;
   /// Velocity, position and attitude errors [m/s, m, rad] east, north, up, to first order in a change of x.

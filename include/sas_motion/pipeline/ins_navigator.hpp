@@ -9,6 +9,7 @@
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/models/ins_gps_dvl.hpp"
+#include "sas_motion/pipeline/bridged_gap.hpp"
 #include "sas_motion/pipeline/smooth_track.hpp"
 
 namespace sas_motion::ins {
@@ -31,7 +32,7 @@ struct Audit {
   Matrix<3> S = Matrix<3>::Zero();           ///< its covariance, before any weighting
   int iterations = 0;
   const char* reason = "";    ///< plain words, a literal; empty where there is nothing to say
-  double effective_size = 0;  ///< of a filter's particles, where it has some
+  double effective_size = 0;  ///< of a filter's particles, where it has several
 };
 
 struct NavigatorOptions {
@@ -39,12 +40,11 @@ struct NavigatorOptions {
   double step = 0.2;  ///< longest time of one prediction of the filter [s]
   SmoothTrack::Options smooth;
   Mechanisation::Options imu;
-  double bridge_force = 1, bridge_rate = 0.1;  ///< what the motion may have been besides in a gap of the inertial unit [m/s^2], [rad/s]
+  BridgedGap bridge;
 };
 
-/// What the motion may have been besides in a part of a gap of the inertial unit, as variances of the errors in the model's units: the parts
-/// of a gap add up to a force and a rate that are wrong throughout. Times in seconds.
-Errors gapVariance(const NavigatorOptions& options, double gap, double part);
+/// The variance by a part of a gap of the inertial unit in the model's units, see BridgedGap.
+Errors gapVariance(const BridgedGap& bridge, double gap, double part);
 
 /// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of the INS itself (feedback)
 /// or of its output (open loop). (C.4)

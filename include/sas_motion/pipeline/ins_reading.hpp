@@ -21,19 +21,27 @@ struct InertialReading {
   std::optional<MeasuredAttitude> attitude;
 };
 
+/// How fast the body goes over the ground on nav axes, as a GNSS receiver says it. It starts the INS, and aids no more.
+struct GroundVelocity {
+  Stamp stamp = 0;
+  Vector<3> velocity_nav = Vector<3>::Zero();  ///< of the antenna
+  double sigma = 0;                            ///< standard deviation, of each axis [m/s]
+};
+
 /// One reading of any sensor.
-using Reading = std::variant<Aiding, InertialReading>;
+using Reading = std::variant<Aiding, GroundVelocity, InertialReading>;
 
 inline Stamp stampOf(const Reading& reading) {
+  if (const auto* inertial = std::get_if<InertialReading>(&reading)) return inertial->imu.stamp;
   const auto* aiding = std::get_if<Aiding>(&reading);
-  return aiding ? aiding->stamp : std::get<InertialReading>(reading).imu.stamp;
+  return aiding ? aiding->stamp : std::get<GroundVelocity>(reading).stamp;
 }
 
 /// The place of a reading among those that come in any order: by time, at one stamp by sensor, and the inertial unit last, since it integrates
 /// up to its stamp.
 inline std::tuple<Stamp, std::size_t> placeOf(const Reading& reading) {
   const auto* aiding = std::get_if<Aiding>(&reading);
-  return {stampOf(reading), aiding ? static_cast<std::size_t>(aiding->sensor) : kSensors};
+  return {stampOf(reading), aiding ? static_cast<std::size_t>(aiding->sensor) : kSensors + reading.index()};
 }
 
 }  // namespace sas_motion::ins

@@ -21,6 +21,9 @@ struct Config {
   double longest_step = 1;             ///< of one prediction of the filter [s]
 };
 
+/// The same where an alignment found the start and the lever arms.
+Config startedAt(Config config, const ins::Parameters& found);
+
 /// Of the particles of the paper's filters, or of one filter of that kind alone.
 enum class FilterKind { Bootstrap, Unscented, SquareRoot };
 struct NamedFilter {

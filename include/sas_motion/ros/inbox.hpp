@@ -37,6 +37,7 @@ struct MessageCounts {
   std::uint64_t unusable = 0;       ///< without a reading
   std::uint64_t lost = 0;           ///< gaps in header.seq
   std::uint64_t disabled = 0;       ///< left, since the source is disabled
+  bool may_fall_silent = false;     ///< of a source that is only needed at the start
   Stamp newest = 0;                 ///< of the newest message, which need not have the highest stamp: a clock may be wrong
 };
 
@@ -45,6 +46,10 @@ struct MessageCounts {
 class Inbox {
  public:
   Inbox(const SensorFrames& frames, double timeout, std::size_t sources) : frames_(frames), timeout_(timeout), sources_(sources) {}
+
+  /// Counts a message; returns whether it is wanted. For sources without a place on the body.
+  bool count(const std_msgs::Header& header, std::size_t source);
+  void countUnusable(std::size_t source) { ++sources_[source].counts.unusable; }
 
   /// Hands a message to `convert(message, T_base_sensor)`, now or when its frame is known; it returns whether there was a reading, or nothing
   /// where the message has to wait.
@@ -65,6 +70,7 @@ class Inbox {
 
   /// Takes a source's messages, or only counts them.
   void enable(std::size_t source, bool enabled) { sources_[source].enabled = enabled; }
+  void mayFallSilent(std::size_t source) { sources_[source].counts.may_fall_silent = true; }
   bool enabled(std::size_t source) const { return sources_[source].enabled; }
   const MessageCounts& counts(std::size_t source) const { return sources_[source].counts; }
 
@@ -80,8 +86,6 @@ class Inbox {
     std::function<bool()> attempt;  // true once it need not wait any more
   };
 
-  /// Returns whether the message is wanted.
-  bool count(const std_msgs::Header& header, std::size_t source);
   void retry();
 
   SensorFrames frames_;

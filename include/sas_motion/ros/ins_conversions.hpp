@@ -26,6 +26,8 @@ struct InsMount {
 std::optional<ins::InertialReading> readingOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu, const ins::Settings& settings);
 std::optional<ins::Aiding> readingOf(const sensor_msgs::NavSatFix& fix, const InsMount& mount, const ins::Settings& settings);
 std::optional<ins::Aiding> readingOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const InsMount& mount, const ins::Settings& settings);
+/// Over the ground on the axes of REP-103's world: east, north, up.
+std::optional<ins::GroundVelocity> groundVelocityOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const ins::Settings& settings);
 /// Its z is the height above the water's surface, minus the depth.
 std::optional<ins::Aiding> readingOf(const geometry_msgs::PoseWithCovarianceStamped& depth, const InsMount& mount, const ins::Settings& settings);
 

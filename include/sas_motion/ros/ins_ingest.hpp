@@ -14,8 +14,8 @@ namespace sas_motion::ros_side {
 class InsIngest {
  public:
   using Sink = std::function<void(const ins::Reading&)>;
-  enum Source { kFix, kImu, kTwist, kDepth, kSources };
-  static constexpr std::array<const char*, kSources> kNames{"fix", "imu", "twist", "depth"};
+  enum Source { kFix, kImu, kTwist, kDepth, kVelocity, kSources };
+  static constexpr std::array<const char*, kSources> kNames{"fix", "imu", "twist", "depth", "velocity"};
 
   /// `transforms` outlives the ingest.
   InsIngest(const InsSettings& settings, const tf2::BufferCore& transforms, Sink sink);
@@ -24,6 +24,8 @@ class InsIngest {
   void take(const sensor_msgs::NavSatFix& message);
   void take(const geometry_msgs::TwistWithCovarianceStamped& message);
   void take(const geometry_msgs::PoseWithCovarianceStamped& message);
+  /// Of GNSS, over the ground.
+  void takeVelocity(const geometry_msgs::TwistWithCovarianceStamped& message);
   void finish() { inbox_.finish(); }
 
   void setDatum(const Geodetic& datum) { frame_.emplace(datum); }

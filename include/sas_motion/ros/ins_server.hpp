@@ -20,7 +20,7 @@
 
 namespace sas_motion::ros_side {
 
-/// The 27-state estimators behind ROS topics. Fed with sensor messages it publishes, for each estimator NAME,
+/// The estimators of a system with an INS behind ROS topics. Fed with sensor messages it publishes, for each estimator NAME,
 ///   NAME/odometry, NAME/fix     the best answer now, at the output rate
 ///   NAME/settled, NAME/update   the final answers and the audit, once no late data can change them
 /// and /diagnostics, the datum, and tf of the first estimator. All callbacks run on one queue, and none of them sleeps.
@@ -38,13 +38,16 @@ class InsServer {
     std::deque<ins::Audit> audits;
     std::array<std::uint64_t, 5> verdicts{};
     Stamp published = 0;
+    double effective_size = 0;  // of the last settled update, see Audit
   };
 
   void startAnew();
+  /// `take`: what the ingest does with a message.
   template <class Message>
-  void subscribe(const std::string& topic);
-  template <class Message>
-  void onMessage(const boost::shared_ptr<Message const>& message);
+  void subscribe(const std::string& topic, void (InsIngest::*take)(const Message&));
+  /// A message's callback: `ingest` hands it on, and what follows from it is published.
+  template <class Ingest>
+  void receive(const Ingest& ingest);
   void publishNow(std::size_t lane);
   void queueSettled();
   void publishSettled(std::size_t most);
@@ -53,6 +56,7 @@ class InsServer {
   /// Of the base, from one of the INS.
   ins::Solution ofBase(const ins::Solution& solution) const { return movedBy(solution, ingest_->base_lever_body()); }
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  static void diagnoseParticles(const Lane& lane, diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseStart(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   bool onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool onEnableSensor(EnableSensor::Request& request, EnableSensor::Response& response);
@@ -67,7 +71,7 @@ class InsServer {
   tf2_ros::TransformBroadcaster broadcaster_;
   std::unique_ptr<InsIngest> ingest_;
   std::unique_ptr<ins::LiveSession> session_;
-  std::vector<std::string> names_{"robust_ckf27"};
+  std::vector<std::string> names_;
   std::vector<Lane> lanes_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;

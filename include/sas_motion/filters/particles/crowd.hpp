@@ -38,7 +38,8 @@ struct ParticleUpdate {
   Verdict verdict = Verdict::Invalid;
 };
 
-/// What particle filters share: the particles in two buffers, their weights, threads and random numbers.
+/// What particle filters share: the particles in two buffers, their weights, threads and random numbers. A copy shares the threads: the two must not work at
+/// once.
 template <class Particle>
 class Crowd {
  public:
@@ -49,7 +50,7 @@ class Crowd {
         others_(particles_.size()),
         predicted_(particles_.size() * kMostRows),
         parents_(particles_.size()),
-        team_(std::make_unique<ThreadTeam>(options.threads)) {}
+        team_(std::make_shared<ThreadTeam>(options.threads)) {}
 
   std::size_t size() const { return particles_.size(); }
   Particle& operator[](std::size_t i) { return particles_[i]; }
@@ -139,7 +140,7 @@ class Crowd {
   std::vector<Particle> particles_, others_;
   std::vector<double> predicted_;
   std::vector<std::size_t> parents_;
-  std::unique_ptr<ThreadTeam> team_;
+  std::shared_ptr<ThreadTeam> team_;
   std::uint32_t step_ = 0;
 };
 
