@@ -33,11 +33,15 @@ MOTION = [
     Column('velocity', 'm/s', ('velocity', 'rmse'), 1, True),
     Column('tilt', 'deg', ('tilt_deg', 'rmse'), 1, True),
 ]
+ALIGNMENT = [
+    Column('aligned', 's', ('alignment', 'after'), 1, True),
+    Column('particles', 'eff.', ('effective_particles',), 1, False),
+]
 NIS_GPS = Column('NIS', 'gps', ('nis', 'gps', 'mean'), 1, False)
 
 TERMINAL = [*RMSE, CURRENT, DRIFT, Column('aperture', 'm', ('aperture', 'across'), 1, True), *CONSISTENCY, *OUTLIERS, COST]
 PAGE = [
-    *RMSE, *MOTION, Column('speed', 'm/s', ('speed', 'rmse'), 1, True), CURRENT, DRIFT,
+    *RMSE, *MOTION, *ALIGNMENT, Column('speed', 'm/s', ('speed', 'rmse'), 1, True), CURRENT, DRIFT,
     Column('aperture, across', 'mm', ('aperture', 'across'), 1e3, True), Column('along', 'mm', ('aperture', 'along'), 1e3, True),
     Column('across', 'λ', ('aperture', 'across_wavelengths'), 1, True), COST._replace(unit='µs/update'),
 ]
@@ -48,7 +52,8 @@ def terminal_columns(metrics):
     if not any(value(e, c) is not None for _, e in ranked(metrics) for c in MOTION):
         return TERMINAL
     rest = [NIS_GPS if c.title == 'NIS' else c for c in TERMINAL if c not in RMSE and c != CURRENT]
-    return [*RMSE, *MOTION, *rest]
+    alignment = [c for c in ALIGNMENT if any(value(e, c) is not None for _, e in ranked(metrics))]
+    return [*RMSE, *MOTION, *alignment, *rest]
 
 
 def value(estimator, column):

@@ -88,6 +88,14 @@ function nisFigure(data, chosen, theme) {
   return stackedFigure(data, theme, rows, sensors.map(band));
 }
 
+function particleFigure(data, chosen, theme) {
+  const {dvl = {}} = data.estimators[chosen].updates;
+  const sizes = dvl.effective_size || [];
+  if (!sizes.some(size => size > 0)) return {traces: []};
+  const line = {name: chosen, x: dvl.t, y: sizes, mode: 'lines', line: {color: colour(data, theme, chosen), width: 1.3}, hovertemplate: '%{x:.1f} s: %{y:.4g}'};
+  return stackedFigure(data, theme, [['effective number', [line], {rangemode: 'tozero'}]], timeShades(data, theme));
+}
+
 function costFigure(data, chosen, theme) {
   const [names, cost, error] = [0, 1, 2].map(k => data.cost.map(point => point[k]));
   const marker = {size: names.map(n => n === chosen ? 14 : 10), color: names.map(n => colour(data, theme, n))};

@@ -15,7 +15,8 @@ def figure_data(metrics, series):
     fixes = rounded(series.get('fixes') or {})
     drawn = {name: estimator_data(series['estimators'][name], fixes) for name in names if name in series['estimators']}
     return {'order': list(drawn), 'skipped': metrics.get('skipped') or 0, 'duration': metrics.get('duration'), 'truth': rounded(series.get('truth') or {}),
-            'fixes': fixes, 'estimators': drawn, 'bands': bands(metrics), 'cost': cost(metrics), 'outages': outage_spans(metrics),
+            'fixes': fixes, 'estimators': drawn, 'bands': bands(metrics), 'particles': any(e.get('effective_particles') for _, e in ranked(metrics)),
+            'cost': cost(metrics), 'outages': outage_spans(metrics),
             'diverged': [name for name, e in ranked(metrics) if e.get('diverged')]}
 
 

@@ -3,7 +3,7 @@
 // Draws the plots, and redraws them for another estimator, another colour scheme, or paper.
 const data = JSON.parse(document.getElementById('data').textContent);
 const chooser = document.getElementById('estimator');
-const figures = {track: trackFigure, errors: errorFigure, weights: weightFigure, nis: nisFigure, cost: costFigure};
+const figures = {track: trackFigure, errors: errorFigure, weights: weightFigure, nis: nisFigure, particles: particleFigure, cost: costFigure};
 
 function drawOne(name, theme) {
   const place = document.getElementById(`plot-${name}`);

@@ -18,6 +18,8 @@ FIGURES = [
     ('nis', 'Normalised innovations squared', 'Of a consistent filter 95 % lie in the band.'),
 ]
 
+PARTICLES = 'The effective number of particles, 1 / Σw², before any resampling: how many share the weight.'
+
 
 def render(metrics, series, focus=None):
     """Returns the page as text; `focus` is what read_focus() returns."""
@@ -41,7 +43,8 @@ def texts(metrics):
 
 def sections(metrics, data, focus):
     """Returns the tables and plots of the page."""
-    after = [('consistency', 'Consistency', tables.consistency(metrics)),
+    after = [('particles', 'Particles', figure('particles', PARTICLES) if data['particles'] else ''),
+             ('consistency', 'Consistency', tables.consistency(metrics)),
              ('measurements', 'Outliers and verdicts', tables.outliers(metrics) + tables.verdicts(metrics)),
              ('cost', 'Cost against accuracy', figure('cost', 'Lower left is better: less computing, less error.') if data['cost'] else ''),
              ('outages', 'Outages', tables.outages(metrics)),

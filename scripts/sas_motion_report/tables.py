@@ -31,7 +31,8 @@ def results(metrics):
     columns = [c for c in PAGE if any(value(e, c) is not None for _, e in ranked(metrics))]
     header = ['estimator'] + [f'{c.title}<br><small>{c.unit}</small>' for c in columns]
     rows = [[escape(name)] + results_row(metrics, e, columns) for name, e in ranked(metrics)]
-    caption = 'RMSE; 95th percentile and largest of the position error; drift: error at the end over distance. <span class="best">Best</span> in bold.'
+    caption = ('RMSE; 95th percentile and largest of the position error; drift: error at the end over distance; aligned: when the heading came within 2° for '
+               'good; particles: effective number, the median. <span class="best">Best</span> in bold.')
     return table(caption, header, rows, 'results')
 
 
