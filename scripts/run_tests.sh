@@ -26,11 +26,19 @@ bad=$(grep -oE '[0-9]+ tests? failed out of' "$log" | grep -oE '^[0-9]+' || echo
 passed=$((passed + all - bad)) failed=$((failed + bad))
 [ "$all" -gt 0 ] || failed=$((failed + 1))
 
-echo "test: Python, ROS and the tools"
-/usr/bin/python3 -m pytest -q -p no:cacheprovider "$root/test/python" "$root/test/ros" 2>&1 | tee "$log"
-status=${PIPESTATUS[0]}
-passed=$((passed + $(count passed "$log"))) failed=$((failed + $(count failed "$log") + $(count error "$log"))) skipped=$((skipped + $(count skipped "$log")))
-[ "$status" -eq 0 ] || [ "$failed" -gt 0 ] || failed=1
+run_pytest() {  # ARGUMENTS
+  /usr/bin/python3 -m pytest -q -p no:cacheprovider "$@" 2>&1 | tee "$log"
+  local status=${PIPESTATUS[0]}
+  passed=$((passed + $(count passed "$log"))) failed=$((failed + $(count failed "$log") + $(count error "$log"))) skipped=$((skipped + $(count skipped "$log")))
+  [ "$status" -eq 0 ] || [ "$failed" -gt 0 ] || failed=1
+}
+side_by_side=""
+/usr/bin/python3 -c 'import xdist' 2>/dev/null && side_by_side="-n $(nproc) --dist loadfile"
+echo "test: Python and the tools"
+# shellcheck disable=SC2086
+run_pytest $side_by_side "$root/test/python"
+echo "test: ROS, one after the other: its tests are live"
+run_pytest "$root/test/ros"
 
 echo "test: every benchmark once, at its smallest size"
 figures=$(mktemp -d)
