@@ -4,15 +4,21 @@
 import math
 
 PER_RADIAN = 180 / math.pi
-UNITS = {'position': 'm', 'height': 'm', 'outage': 'm', 'velocity': 'm/s', 'speed': 'm/s', 'current': 'm/s', 'tilt': 'deg', 'heading': 'deg', 'drift_percent': '%',
-         'mounting': 'deg', 'lever': 'm'}
+# in the order in which a reader looks for them
+UNITS = {'position': 'm', 'mounting': 'deg', 'drift_percent': '%', 'outage': 'm', 'height': 'm', 'velocity': 'm/s', 'tilt': 'deg', 'heading': 'deg', 'speed': 'm/s',
+         'current': 'm/s', 'lever': 'm'}
 NAMES = {'drift_percent': 'drift', 'outage': 'end of outage'}
-ORDER = ('position', 'mounting', 'drift_percent', 'outage', 'height', 'velocity', 'tilt', 'heading', 'speed', 'current', 'lever')
+ORDER = list(UNITS)
+
+
+def kind(group):
+    """Returns what a group is one of: a single unknown, lever_x, is one of its vector, lever."""
+    return group if group in UNITS else group.split('_')[0]
 
 
 def unit(group):
-    """Returns the unit of a group; a single unknown has that of its kind, lever_x that of lever. None where it is not known."""
-    return UNITS.get(group) or UNITS.get(group.split('_')[0])
+    """Returns the unit of a group; None where it is not known."""
+    return UNITS.get(kind(group))
 
 
 def title(group):
@@ -27,4 +33,4 @@ def factor(group):
 
 def ordered(groups):
     """Returns the groups as a reader looks for them: position, velocity, attitude, the rest behind."""
-    return sorted(groups, key=lambda group: (ORDER.index(group) if group in ORDER else len(ORDER), group))
+    return sorted(groups, key=lambda group: (ORDER.index(kind(group)) if kind(group) in ORDER else len(ORDER), group))

@@ -12,6 +12,7 @@ import pytest
 
 sys.path.insert(0, str(front.ROOT / 'scripts'))
 
+from sas_motion_campaign import units  # noqa: E402
 from sas_motion_campaign.bootstrap import Resampler, interval  # noqa: E402
 from sas_motion_campaign.page.data import chi_square_95  # noqa: E402
 from sas_motion_campaign.particles import families  # noqa: E402
@@ -117,6 +118,12 @@ def test_the_table_of_errors_has_units_convergence_and_particles():
                                                   'particles [%]', 'us/update']
     assert re.split(r'  +', lines[begin + 2]) == ['a', '3.00', '2.00', '5.73', '3.00', '0.200', '1.00', '3 of 4', '5 / –', '60.0', '17.5']
     assert lines[begin + 3].split()[0] == 'kf' and lines[begin + 4].split()[:4] == ['bound', '-', '-', '2.86']
+
+
+def test_unknowns_stand_behind_their_vector_in_its_unit():
+    found = units.ordered(['lever_x', 'heading', 'mounting_y', 'mounting', 'gain', 'lever'])
+    assert [units.title(group) for group in found] == ['mounting [deg]', 'mounting_y [deg]', 'heading [deg]', 'lever [m]', 'lever_x [m]', 'gain']
+    assert [units.factor(group) for group in ('mounting_y', 'lever_x', 'drift_percent')] == pytest.approx([180 / np.pi, 1, 1])
 
 
 def test_campaigns_that_differ_in_particles_alone_make_a_table_over_them():
