@@ -17,8 +17,8 @@ constexpr double kSame = 1e-6;  // [s]
 
 double normalisedSquare(const Vector<3>& error, const Matrix<3>& P) { return error.dot(P.llt().solve(error)) / 3; }
 
-/// Of all nine, each scaled by its own deviation first: m/s, m and rad are far from alike.
-double normalisedSquare(const Vector<9>& error, const Matrix<9>& P) {
+/// Of all nine together, not divided; each is scaled by its own deviation first: m/s, m and rad are far from alike.
+double fullSquare(const Vector<9>& error, const Matrix<9>& P) {
   const Vector<9> scale = P.diagonal().cwiseSqrt(), scaled = error.cwiseQuotient(scale);
   const Matrix<9> correlation = scale.cwiseInverse().asDiagonal() * P * scale.cwiseInverse().asDiagonal();
   return scaled.dot(correlation.llt().solve(scaled));
@@ -66,15 +66,15 @@ void Score::trace(const Solution& solution, double time, const Vector<9>& error)
     trace_.add("tilt", norm(kAttitude, 2), sum(kAttitude, 2));
     trace_.add("heading", error(kAttitude + 2), variance(kAttitude + 2));
   }
-  if (solution.covariance) trace_.nees.push_back(normalisedSquare(error, *solution.covariance));
+  if (solution.covariance) trace_.nees.push_back(fullSquare(error, *solution.covariance));
 }
 
 void Score::addConsistency(double time, const Vector<9>& error, const Matrix<9>& P) {
-  const auto group = [&](State first) { return normalisedSquare(Vector<3>(error.segment<3>(first)), Matrix<3>(P.block<3, 3>(first, first))); };
+  const auto group = [&](State first) { return normalisedSquare(error.segment<3>(first), P.block<3, 3>(first, first)); };
   nees_["velocity"].push_back(group(kVelocity));
   nees_["position"].push_back(group(kPosition));
   nees_["attitude"].push_back(group(kAttitude));
-  nees_["full"].push_back(normalisedSquare(error, P) / 9);
+  nees_["full"].push_back(trace_.nees.back() / 9);
   const Vector<2> sigma = P.diagonal().segment<2>(kPosition).cwiseSqrt();
   lock_out_.add(time, (error.segment<2>(kPosition).array().abs() / sigma.array()).maxCoeff());
 }
@@ -82,7 +82,6 @@ void Score::addConsistency(double time, const Vector<9>& error, const Matrix<9>&
 void Score::add(const Audit& audit, const LabelledAiding& labelled) {
   const double time = secondsBetween(0, audit.stamp);
   if (audit.sensor == traced_ && audit.effective_size > 0) {
-    effective_sizes_.push_back(audit.effective_size);
     trace_.effective_time.push_back(time);
     trace_.effective_size.push_back(audit.effective_size);
   }
@@ -120,7 +119,7 @@ EstimatorReport Score::report(const std::string& name) const {
     report.aperture_across = aperture.across;
     report.aperture_wavelengths = aperture.across / aperture.wavelength;
   }
-  if (!effective_sizes_.empty()) report.effective_size = quantile(effective_sizes_, 0.5);
+  if (!trace_.effective_size.empty()) report.effective_size = quantile(trace_.effective_size, 0.5);
   report.precision = detection_.precision();
   report.recall = detection_.recall();
   return report;

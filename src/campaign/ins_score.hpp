@@ -37,7 +37,7 @@ class Score {
   Sensor traced_;
   std::map<std::string, std::vector<double>> errors_, nees_;
   std::array<std::vector<double>, kSensors> nis_;
-  std::vector<double> time_, along_, across_, effective_sizes_;
+  std::vector<double> time_, along_, across_;
   towfish::Detection detection_;
   bool finite_ = true;
   LockOut lock_out_{1};

@@ -62,7 +62,7 @@ class RunScore {
     for (std::size_t i = 0; i < kSensors; ++i)
       if (scores.nis[i]) report.nis.emplace_back(sensorName(static_cast<Sensor>(i)), scores.nis[i]->mean / scores.nis[i]->degrees);
     report.aperture_across = scores.aperture.across;
-    report.aperture_wavelengths = scores.aperture.across / scores.aperture.wavelength;
+    if (scores.aperture.windows > 0) report.aperture_wavelengths = scores.aperture.across / scores.aperture.wavelength;
     report.precision = total(scores.detection, &Detection::precision);
     report.recall = total(scores.detection, &Detection::recall);
     return report;
