@@ -74,6 +74,10 @@ echo; echo "bench: our answers and other people's code's"
 install -r "$root/benchmark/peers/requirements.txt"
 if [ $missing = 0 ]; then
   with_peers "$root/benchmark/cross_check.py" "$tools" $((smoke == 1 ? 20 : 200)) $((smoke == 1 ? 50 : 200))
+  echo; echo "bench: our bootstrap filter beside Stone Soup's: answers of many seeds, and time"
+  runs=100 particles=(100 1000 10000)
+  [ "$smoke" = 0 ] || { runs=20 particles=(100 1000); }
+  with_peers "$root/benchmark/compare_particles.py" "$tools" "$runs" "${particles[@]}"
 else
   echo "bench: NOT CHECKED by other people's code: benchmark/peers/requirements.txt could not be installed" >&2
 fi

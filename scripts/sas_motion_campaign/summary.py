@@ -6,14 +6,15 @@ import numpy as np
 from sas_motion_report.inputs import dig
 
 from .bootstrap import LEVEL, RESAMPLES, SEED, Resampler, interval
+from .convergence import convergence
 from .failures import clean_medians, kept_runs, lockouts
 from .images import by_aperture_error, image
 from .ratios import ratios, to_bound
 
 SCHEMA = 'sas_motion/benchmark/2'
 FIRST = ('position', 'mounting')  # the group that ratios and divergence are about
-OTHER = ('diverged', 'samples', 'nees', 'nis', 'aperture_across', 'locked_out', 'precision', 'recall')  # what is no group of errors
-MEANS = ('aperture_across', 'precision', 'recall')
+OTHER = ('nees', 'nis', 'convergence')  # objects that are no group of errors
+MEANS = ('aperture_across', 'aperture_wavelengths', 'effective_size', 'precision', 'recall')
 
 
 def summarise(plan, records, bounds):
@@ -32,7 +33,7 @@ def summarise_campaign(plan, campaign, records, bounds, resampler):
     rmse = {key: column(found, groups[0], 'rmse') for key, found in runs.items()}
     medians = clean_medians(rmse, laws[0], names)
     keep = {key: kept_runs(runs[key], rmse[key], medians[key[1]]) for key in runs}
-    head = {key: campaign.get(key) for key in ('system', 'duration', 'skip', 'dimension')}
+    head = {key: campaign.get(key) for key in ('system', 'duration', 'skip', 'dimension', 'particles')}
     tree = {**head, 'groups': groups, 'estimators': names, 'laws': {}}
     for law in campaign['laws']:
         bound = bounds.get(law['name'])
@@ -44,6 +45,9 @@ def summarise_campaign(plan, campaign, records, bounds, resampler):
             for group in groups:
                 estimator['errors'][group]['to_bound'] = to_bound(estimator['errors'][group]['rms'], dig(bound, group, 'rmse'))
             estimator['ratios']['bound'] = estimator['errors'][groups[0]]['to_bound']
+            settled = convergence(runs[law['name'], name], keep[law['name'], name])
+            if settled:
+                estimator['convergence'] = settled
             if any('windows' in result for result in runs[law['name'], name]):
                 estimator['image'] = image(runs[law['name'], name])
         facts = {key: law.get(key) for key in ('description', 'epsilon', 'K')}

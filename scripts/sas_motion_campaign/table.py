@@ -3,10 +3,12 @@
 """The results as plain text for a terminal."""
 from sas_motion_report.inputs import dig
 
+from . import errors, particles
 from .images import CAPTION, COSTS_CAPTION, cost_rows, image_rows
 
 HEADER = ('estimator', 'RMSE', '95 %', 'median', 'R', '/kf', '/oracle', '/reference', '/ckf', '/oracle', '/bound', '95 %', 'aperture [mm]', 'NEES/n', 'diverged', 'us/update')
 
+LARGE = 1e7  # no longer written out
 UNITS = {'position': ' [m]', 'mounting': ' [rad]'}
 
 
@@ -20,8 +22,27 @@ def terminal_table(summary, costs):
         for law, found in campaign['laws'].items():
             rows = [header(campaign)] + [row(campaign, estimator, found['estimators'][estimator], dig(costs, name, law, estimator)) for estimator in campaign['estimators']]
             lines += [law, *aligned(rows), '']
-        lines += image_tables(campaign)
-    return '\n'.join(lines + [LEGEND])
+        lines += error_tables(campaign, dig(costs, name)) + image_tables(campaign)
+    lines += particle_tables(summary['campaigns'], costs)
+    return '\n'.join(lines + [LEGEND, errors.CAPTION])
+
+
+def error_tables(campaign, costs):
+    """Returns the tables of all groups of errors, a law each; empty where there is one group alone."""
+    lines = []
+    for law, found in campaign['laws'].items():
+        rows = errors.error_rows(campaign, found, dig(costs, law))
+        lines += [f'{law}: errors', *aligned(rows), ''] if rows else []
+    return lines
+
+
+def particle_tables(campaigns, costs):
+    """Returns the tables over the number of particles; empty where no campaigns differ in it alone."""
+    lines = []
+    for family in particles.families(campaigns):
+        for law in campaigns[family[0]]['laws']:
+            lines += [f'{family[0]} to {family[-1]}, {law}: {particles.CAPTION}', '', *aligned(particles.particle_rows(campaigns, family, law, costs)), '']
+    return lines
 
 
 def image_tables(campaign):
@@ -54,8 +75,8 @@ def row(campaign, name, found, cost):
 
 
 def fixed(x, digits):
-    """Returns a number with so many decimals."""
-    return '-' if x is None else f'{x:.{digits}f}'
+    """Returns a number with so many decimals, a very large one by its exponent."""
+    return '-' if x is None else f'{x:.{digits}f}' if abs(x) < LARGE else f'{x:.1e}'
 
 
 def span(found, digits):

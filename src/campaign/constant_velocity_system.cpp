@@ -82,6 +82,7 @@ class Score {
     lock_out_.add(epoch.time, (error.head<3>().array().abs() / P.diagonal().head<3>().array().sqrt()).maxCoeff());
     trace_.time.push_back(epoch.time);
     trace_.sigma3.push_back(3 * std::sqrt(P.diagonal().head<3>().sum()));
+    trace_.add("velocity", velocity_.back(), P.diagonal().tail<3>().sum());
     trace_.weight.push_back(weight);
     trace_.outlier.push_back(epoch.outlier);
   }

@@ -11,10 +11,14 @@
 
 namespace sas_motion::ins {
 
-/// Scores one solution over a run.
+/// Scores one solution over a run. Its trace has the start too, and weights and NIS of one sensor.
 class Score {
  public:
-  Score(const Scenario& scenario, double skip, const towfish::ApertureOptions& aperture = {}) : scenario_(scenario), skip_(skip), aperture_(aperture) {}
+  Score(const Scenario& scenario, double skip, const towfish::ApertureOptions& aperture = {}, Sensor traced = Sensor::Gps)
+      : scenario_(scenario), skip_(skip), aperture_(aperture), traced_(traced) {
+    trace_.nees_degrees = 9;
+    trace_.nis_degrees = rowsOf(traced);
+  }
 
   void add(const TruthSample& truth, const Solution& solution);
   void add(const Audit& audit, const LabelledAiding& labelled);
@@ -23,11 +27,14 @@ class Score {
   const Trace& trace() const { return trace_; }
 
  private:
-  void addConsistency(const Vector<9>& error, const Matrix<9>& P);
+  /// `error` and `P` are of velocity, position and attitude [m/s, m, rad].
+  void trace(const Solution& solution, double time, const Vector<9>& error);
+  void addConsistency(double time, const Vector<9>& error, const Matrix<9>& P);
 
   const Scenario& scenario_;
   double skip_;
   towfish::ApertureOptions aperture_;
+  Sensor traced_;
   std::map<std::string, std::vector<double>> errors_, nees_;
   std::array<std::vector<double>, kSensors> nis_;
   std::vector<double> time_, along_, across_;

@@ -122,11 +122,7 @@ class InsSystem final : public System {
 
   Named<Trace> trace(std::size_t law, std::uint64_t seed) const override {
     Named<Trace> traces;
-    for (const auto& scored : RunScoring(scenarios_[law], skip, seed, make_).of(estimators)) {
-      traces.emplace_back(scored.name, scored.score.trace());
-      traces.back().second.nees_degrees = 9;
-      traces.back().second.nis_degrees = rowsOf(Sensor::Gps);
-    }
+    for (const auto& scored : RunScoring(scenarios_[law], skip, seed, make_).of(estimators)) traces.emplace_back(scored.name, scored.score.trace());
     return traces;
   }
 

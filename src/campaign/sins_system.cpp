@@ -16,9 +16,11 @@ namespace {
 
 using namespace sins;
 
-constexpr double kScoreEvery = 0.1;                        // [s]
-constexpr double kAlignedHeading = 2 * kRadPerDeg;         // three standard deviations of the bound: an estimator whose heading stays within has converged
-const towfish::ApertureOptions kAperture{66, 0.015, 0.1};  // 3.3 s at 3 m/s
+constexpr double kScoreEvery = 0.1;  // [s]
+// Who has converged: the heading is within three standard deviations of the bound, and the velocity did not run away.
+constexpr double kAlignedHeading = 2 * kRadPerDeg, kAlignedVelocity = 0.3;  // [rad, m/s]
+constexpr double kAlignedFor = 30;                                          // to the end of the run [s]
+const towfish::ApertureOptions kAperture{66, 0.015, 0.1};                   // 3.3 s at 3 m/s
 
 /// One law, as it is simulated and as the estimators are told.
 struct Case {
@@ -29,7 +31,9 @@ struct Case {
 /// One estimator over one run.
 class Follower {
  public:
-  Follower(const Case& one, const ins::Trajectory& trajectory, double skip) : case_(one), trajectory_(trajectory), score_(one.scored, skip, kAperture) {}
+  /// `alone`: it is a filter of one particle, whose effective size says nothing.
+  Follower(const Case& one, const ins::Trajectory& trajectory, double skip, bool alone)
+      : case_(one), trajectory_(trajectory), alone_(alone), score_(one.scored, skip, kAperture, ins::Sensor::Dvl) {}
 
   void run(ins::Estimator& estimator, const ins::Recording& recording) {
     estimator.start(recording.start, 0);
@@ -51,24 +55,18 @@ class Follower {
 
   EstimatorReport report(const std::string& name) const {
     EstimatorReport report = score_.report(name);
-    const auto add = [&](const char* group, double value) { report.errors.emplace_back(group, towfish::ErrorSummary{value, value, value}); };
-    add("drift_percent", 100 * end_error_ / (case_.scenario.track.speed * case_.scenario.duration));
-    add("converged_after", converged_after_);
-    if (!effective_sizes_.empty()) add("effective_particles", quantile(effective_sizes_, 0.5));
+    const double drift = 100 * end_error_ / (case_.scenario.track.speed * case_.scenario.duration);
+    report.errors.emplace_back("drift_percent", towfish::ErrorSummary{drift, drift, drift});
+    report.convergence = aligned_.result();
     report.microseconds = microseconds_;
     return report;
   }
-  Trace trace() const {
-    Trace trace = score_.trace();
-    trace.nees_degrees = 9;
-    trace.nis_degrees = 3;
-    return trace;
-  }
+  const Trace& trace() const { return score_.trace(); }
 
  private:
-  void note(const ins::Audit& audit, const ins::LabelledAiding& labelled) {
+  void note(ins::Audit audit, const ins::LabelledAiding& labelled) {
+    if (alone_) audit.effective_size = 0;
     score_.add(audit, labelled);
-    if (audit.sensor == ins::Sensor::Dvl && audit.effective_size > 0) effective_sizes_.push_back(audit.effective_size);
   }
 
   void note(const ins::Solution& solution) {
@@ -77,14 +75,17 @@ class Follower {
     const ins::TruthSample truth = trajectory_.at(time);
     score_.add(truth, solution);
     end_error_ = displacement(truth.state, solution.state).head<2>().norm();
-    if (std::abs(attitudeError(solution.state.q_nav_body, truth.state.q_nav_body).z()) > kAlignedHeading) converged_after_ = time;
+    const double heading = attitudeError(solution.state.q_nav_body, truth.state.q_nav_body).z();
+    const double velocity = (solution.state.velocity_nav - truth.state.velocity_nav).head<2>().norm();
+    aligned_.add(time, std::abs(heading) <= kAlignedHeading && velocity <= kAlignedVelocity);
   }
 
   const Case& case_;
   const ins::Trajectory& trajectory_;
+  bool alone_;
   ins::Score score_;
-  double microseconds_ = 0, end_error_ = 0, converged_after_ = 0;
-  std::vector<double> effective_sizes_;
+  ConvergenceWatch aligned_{kAlignedFor};
+  double microseconds_ = 0, end_error_ = 0;
 };
 
 class SinsSystem final : public System {
@@ -100,6 +101,7 @@ class SinsSystem final : public System {
     campaign.number("skip", skip, {0, 1e6});
     if (skip >= duration) campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
     campaign.integer("particles", particles_.particles, 1, 1'000'000);
+    particles = particles_.particles;
     campaign.integer("threads", particles_.threads, 1, 1024);
     campaign.boolean("accelerometer_bias", accelerometer_bias_);
     dimension = accelerometer_bias_ ? kStates : kPaperStates;
@@ -149,7 +151,8 @@ class SinsSystem final : public System {
     const ins::Trajectory trajectory(one.scenario.track, one.scenario.duration);
     const ins::Recording recording = sins::simulate(one.scenario, trajectory, seed);
     for (const auto& name : estimators) {
-      Follower follower(one, trajectory, skip);
+      const NamedFilter* filter = findFilter(name);
+      Follower follower(one, trajectory, skip, filter && filter->alone);
       follower.run(*make(name, one, seed), recording);
       visit(name, follower);
     }

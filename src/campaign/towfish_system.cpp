@@ -62,6 +62,7 @@ class RunScore {
     for (std::size_t i = 0; i < kSensors; ++i)
       if (scores.nis[i]) report.nis.emplace_back(sensorName(static_cast<Sensor>(i)), scores.nis[i]->mean / scores.nis[i]->degrees);
     report.aperture_across = scores.aperture.across;
+    if (scores.aperture.windows > 0) report.aperture_wavelengths = scores.aperture.across / scores.aperture.wavelength;
     report.precision = total(scores.detection, &Detection::precision);
     report.recall = total(scores.detection, &Detection::recall);
     return report;
@@ -80,8 +81,12 @@ void record(const SimulatedRun& run, Stamp from, const Output& output, Trace& tr
     if (estimate.stamp < from) continue;
     const Reference truth = run.at(estimate.stamp);
     trace.time.push_back(secondsBetween(Simulator::kStart, estimate.stamp));
-    trace.error.push_back(Model::difference(estimate.belief.mean, truth.state).head<2>().norm());
-    trace.sigma3.push_back(3 * std::sqrt(estimate.belief.covariance.diagonal().head<2>().sum()));
+    const StateVector error = Model::difference(estimate.belief.mean, truth.state), variance = estimate.belief.covariance.diagonal();
+    trace.error.push_back(error.head<2>().norm());
+    trace.sigma3.push_back(3 * std::sqrt(variance.head<2>().sum()));
+    trace.add(groupName(kHeadingGroup), error(kHeading), variance(kHeading));
+    trace.add(groupName(kSpeedGroup), error(kSpeed), variance(kSpeed));
+    trace.add(groupName(kCurrentGroup), error.segment<2>(kCurrentNorth).norm(), variance.segment<2>(kCurrentNorth).sum());
     trace.nees.push_back(normalisedSquare(estimate, truth));
   }
   for (const auto& audit : output.audits) {

@@ -157,6 +157,7 @@ class UsblSystem final : public System {
       trace.time.push_back(estimate.time);
       trace.error.push_back(error.head<3>().norm());
       trace.sigma3.push_back(3 * std::sqrt(estimate.belief.covariance.diagonal().head<3>().sum()));
+      trace.add("lever", error.tail<3>().norm(), estimate.belief.covariance.diagonal().tail<3>().sum());
       trace.nees.push_back(normalisedSquare(estimate.belief, error));
     }
     for (std::size_t k = 0; k < pings.size(); ++k) {

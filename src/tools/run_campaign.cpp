@@ -51,6 +51,7 @@ json planOf(const Suite& suite) {
                                  {"duration", s.duration},
                                  {"skip", s.skip},
                                  {"dimension", s.dimension},
+                                 {"particles", s.particles > 0 ? json(s.particles) : json()},
                                  {"estimators", s.estimators},
                                  {"laws", laws}});
   }
@@ -69,8 +70,11 @@ json toJson(const EstimatorReport& report) {
   for (const auto& [group, value] : report.nees) result["nees"][group] = value;
   for (const auto& [sensor, value] : report.nis) result["nis"][sensor] = value;
   result["aperture_across"] = orNull(report.aperture_across);
+  result["aperture_wavelengths"] = orNull(report.aperture_wavelengths);
   result["precision"] = orNull(report.precision);
   result["recall"] = orNull(report.recall);
+  if (report.effective_size) result["effective_size"] = *report.effective_size;
+  if (report.convergence) result["convergence"] = {{"after", orNull(report.convergence->after)}};
   for (const auto& window : report.windows) result["windows"].push_back(toJson(window));
   return result;
 }
@@ -121,16 +125,29 @@ std::vector<Value> thinned(const std::vector<Value>& values) {
   return some;
 }
 
+json toJson(const Trace& t) {
+  json others = json::array();
+  for (const auto& [group, series] : t.others) others.push_back({{"group", group}, {"error", thinned(series.error)}, {"sigma3", thinned(series.sigma3)}});
+  return {{"time", thinned(t.time)},
+          {"error", thinned(t.error)},
+          {"sigma3", thinned(t.sigma3)},
+          {"others", others},
+          {"nees", thinned(t.nees)},
+          {"nis", thinned(t.nis)},
+          {"weight_time", thinned(t.weight_time)},
+          {"weight", thinned(t.weight)},
+          {"outlier", thinned(t.outlier)},
+          {"effective_time", thinned(t.effective_time)},
+          {"effective_size", thinned(t.effective_size)},
+          {"nees_degrees", t.nees_degrees},
+          {"nis_degrees", t.nis_degrees}};
+}
+
 json tracesOf(const Suite& suite) {
   json all = json::object();
   for (const auto& campaign : suite.campaigns)
     for (std::size_t law = 0; law < campaign->laws.size(); ++law)
-      for (const auto& [name, t] : campaign->trace(law, suite.first_seed))
-        all[campaign->title][campaign->laws[law].name][name] = {{"time", thinned(t.time)},        {"error", thinned(t.error)},
-                                                                {"sigma3", thinned(t.sigma3)},    {"nees", thinned(t.nees)},
-                                                                {"nis", thinned(t.nis)},          {"weight_time", thinned(t.weight_time)},
-                                                                {"weight", thinned(t.weight)},    {"outlier", thinned(t.outlier)},
-                                                                {"nees_degrees", t.nees_degrees}, {"nis_degrees", t.nis_degrees}};
+      for (const auto& [name, trace] : campaign->trace(law, suite.first_seed)) all[campaign->title][campaign->laws[law].name][name] = toJson(trace);
   return all;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include "campaign/suites.hpp"
 #include "sas_motion/simulation/sins_scenario.hpp"
 
@@ -34,17 +36,61 @@ TEST(SinsSystem, TheRobustFormStandsOutliersOfTheDvl) {
 }
 
 TEST(SinsSystem, ReportsParticlesConvergenceAndDrift) {
-  const auto suite = suiteOf(sinsSuite("large_angle", 60, 1, "[ss_srupf, ckf27]", "[{name: five}, {name: thirty, heading_deg: 30}]"));
-  const auto runs = runAll(suite);
-  for (const auto& reports : runs) {
-    std::map<std::string, double> found;
-    for (const auto& [group, error] : reports.front().errors) found[group] = error.rmse;
-    EXPECT_GE(found.at("effective_particles"), 50);
-    EXPECT_LT(found.at("converged_after"), 60);
-    EXPECT_LT(found.at("drift_percent"), 5);
-    EXPECT_FALSE(reports.front().diverged);
-    EXPECT_TRUE(reports.front().aperture_across);
+  const auto suite = suiteOf(sinsSuite("large_angle", 60, 1, "[ss_srupf, ukf, ckf27]", "[{name: five}, {name: thirty, heading_deg: 30}]"));
+  EXPECT_EQ(suite.campaigns[0]->particles, 100);
+  for (const auto& reports : runAll(suite)) {
+    const auto& found = reports.front();
+    ASSERT_EQ(found.errors.back().first, "drift_percent");
+    EXPECT_LT(found.errors.back().second.rmse, 5);
+    EXPECT_FALSE(found.diverged);
+    ASSERT_TRUE(found.effective_size && found.convergence && found.convergence->after && found.aperture_across && found.aperture_wavelengths);
+    EXPECT_GE(*found.effective_size, 50);
+    EXPECT_GT(*found.convergence->after, 0) << "it begins 5 or 30 degrees off";
+    EXPECT_LE(*found.convergence->after, 30) << "and stays for 30 s of 60";
+    EXPECT_DOUBLE_EQ(*found.aperture_wavelengths, *found.aperture_across / 0.015);
+    EXPECT_FALSE(reports[1].effective_size) << "ukf is a filter alone";
+    EXPECT_FALSE(reports[2].effective_size) << "ckf27 has no particles";
   }
+}
+
+TEST(SinsSystem, AFilterThatRanAwayHasNotConvergedHoweverGoodItsHeading) {
+  const auto suite = suiteOf(sinsSuite("large_angle", 100, 1, "[pf]", "[{name: thirty, heading_deg: 30}]"));
+  const auto report = runAll(suite).front().front();
+  std::map<std::string, double> found;
+  for (const auto& [group, error] : report.errors) found[group] = error.rmse;
+  EXPECT_LT(found.at("heading"), 2 * kRadPerDeg);
+  EXPECT_GT(found.at("velocity"), 0.3);
+  EXPECT_FALSE(report.convergence->after);
+}
+
+TEST(SinsSystem, ATraceShowsErrorsWithTheirBandsAndTheParticles) {
+  const auto suite = suiteOf(sinsSuite("large_angle", 60, 1, "[ss_srupf]", "[{name: thirty, heading_deg: 30}]"));
+  const auto trace = suite.campaigns[0]->trace(0, 1).front().second;
+  EXPECT_LT(trace.time.front(), 2) << "the start too, which is not scored";
+  ASSERT_EQ(trace.others.size(), 3u);
+  const auto& [group, heading] = trace.others.back();
+  EXPECT_EQ(group, "heading");
+  ASSERT_EQ(heading.error.size(), trace.time.size());
+  ASSERT_EQ(heading.sigma3.size(), trace.time.size());
+  EXPECT_GT(std::abs(heading.error.front()), 20 * kRadPerDeg);
+  EXPECT_LT(std::abs(heading.error.back()), heading.sigma3.back());
+  EXPECT_EQ(trace.effective_size.size(), 60u) << "one a reading of the DVL";
+  EXPECT_EQ(trace.nis.size(), 31u) << "of the DVL, from 30 s on";
+  for (const double size : trace.effective_size) EXPECT_TRUE(size >= 1 && size <= 100) << size;
+}
+
+TEST(ConvergenceWatch, AsksForAnEstimateThatStaysNearTheTruth) {
+  const auto after = [](const std::string& near) {  // a letter a second, n: near; for at least 3 s
+    ConvergenceWatch watch(3);
+    for (std::size_t i = 0; i < near.size(); ++i) watch.add(static_cast<double>(i), near[i] == 'n');
+    return watch.result().after;
+  };
+  EXPECT_EQ(after("--nnnn"), 2);
+  EXPECT_EQ(after("-n-nnnn"), 3) << "passing by is not enough";
+  EXPECT_EQ(after("nnnn"), 0);
+  EXPECT_EQ(after("---nnn"), std::nullopt) << "two seconds are too short";
+  EXPECT_EQ(after("nnnnn-"), std::nullopt) << "it left in the end";
+  EXPECT_EQ(after(""), std::nullopt);
 }
 
 TEST(SinsSystem, SaysWhatIsWrong) {

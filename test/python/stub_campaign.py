@@ -19,8 +19,9 @@ import yaml
 
 HARM = {'kf': 1.0, 'oracle_kf': 0.02, 'bayes_reference': 0.025, 'gated_kf': 0.3, 'robust_kf': 0.12, 'student_t_kf': 0.1, 'mixture_kf': 0.035}  # share of the outliers felt
 COST = {'kf': 0.6, 'bayes_reference': 40.0, 'mixture_kf': 0.9}
-GROUPS = {'towfish': {'position': 0.2, 'heading': 0.004, 'speed': 0.02, 'current': 0.03}, 'constant_velocity': {'position': 1.1, 'velocity': 0.4}}
-DEGREES = {'towfish': 6, 'constant_velocity': 4}
+GROUPS = {'towfish': {'position': 0.2, 'heading': 0.004, 'speed': 0.02, 'current': 0.03}, 'constant_velocity': {'position': 1.1, 'velocity': 0.4},
+          'sins_dvl': {'position': 2.0, 'velocity': 0.05, 'heading': 0.01, 'drift_percent': 0.6}}
+DEGREES = {'towfish': 6, 'constant_velocity': 4, 'sins_dvl': 19}
 
 
 def read(path, runs):
@@ -36,7 +37,7 @@ def read(path, runs):
     for campaign in suite['campaigns']:
         laws = [{'name': law['name'], 'description': law.get('description', law['name']), **strength(law)} for law in campaign['laws']]
         campaigns.append({'name': campaign['name'], 'system': campaign['system'], 'first_task': task, 'duration': 600.0, 'skip': campaign.get('skip', 20.0),
-                          'dimension': DEGREES[campaign['system']], 'estimators': campaign['estimators'], 'laws': laws})
+                          'dimension': DEGREES[campaign['system']], 'particles': campaign.get('particles'), 'estimators': campaign['estimators'], 'laws': laws})
         task += len(laws) * runs
     return {'schema': 'sas_motion/plan/1', 'suite': suite['name'], 'version': '0.1.0', 'config_hash': digest, 'runs': runs,
             'first_seed': suite.get('first_seed', 1), 'tasks': task, 'campaigns': campaigns}
@@ -86,6 +87,8 @@ def score(campaign, law, seed, name, weather):
         result['nees'][group] = factor ** 2 if name == 'kf' else 1 + rng.gauss(0, 0.05)
     result['nees']['full'] = result['nees']['position']
     result['nis'] = {'position': result['nees']['position']}
+    if campaign['particles']:
+        result.update(effective_size=0.6 * campaign['particles'], convergence={'after': 12.0 + seed if seed % 4 else None})
     return result
 
 
@@ -118,6 +121,12 @@ def trace(campaign, law, name):
     outlier = [rng.random() < (law['epsilon'] or 0) for _ in times]
     tree = {'time': times, 'error': [rng.gauss(0, sigma) for _ in times], 'sigma3': [3 * sigma] * 300, 'nees_degrees': n, 'nis_degrees': 2,
             'nees': [rng.gammavariate(n / 2, 2) for _ in times], 'nis': [rng.expovariate(0.5) for _ in times]}
+    tree['others'] = [{'group': group, 'error': [rng.gauss(0, clean) for _ in times], 'sigma3': [3 * clean] * 300}
+                      for group, clean in GROUPS[campaign['system']].items() if group in ('velocity', 'heading')]
+    if campaign['particles']:
+        for other in tree['others']:
+            other['sigma3'] = [sigma3 if i % 5 == 4 else None for i, sigma3 in enumerate(other['sigma3'])]  # stated at readings alone
+        tree.update(effective_time=times, effective_size=[campaign['particles'] * rng.uniform(0.4, 1) for _ in times])
     if name != 'kf':
         tree.update(weight_time=times, weight=[rng.uniform(0, 0.3) if bad else min(1.0, rng.uniform(0.8, 1.2)) for bad in outlier], outlier=outlier)
     return tree

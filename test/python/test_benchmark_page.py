@@ -14,7 +14,8 @@ sys.path.insert(0, str(front.ROOT / 'scripts'))
 
 from sas_motion_campaign.page import sentences as prose  # noqa: E402
 
-PLOTS = ('contamination', 'ranking', 'cost', 'nees', 'failures', 'errors', 'consistency', 'weights')
+PLOTS = ('contamination', 'ranking', 'cost', 'particles', 'nees', 'failures', 'errors', 'effective', 'consistency', 'weights')
+OF_PARTICLES = {'particles', 'effective'}
 
 
 @pytest.fixture(scope='module')
@@ -73,7 +74,7 @@ def test_every_choice_draws_without_an_error(desktop):
             drawn(desktop, campaign['name'], law, estimator)
             weights = {'weights'} if estimator == 'kf' else set()  # kf has none
             failures = set() if (campaign['name'], law) == ('towfish', 'contaminated 0.2, K 20') else {'failures'}
-            assert set(PLOTS) - shown(desktop) == weights | failures
+            assert set(PLOTS) - shown(desktop) == weights | failures | OF_PARTICLES
     for summary in desktop.find_elements('css selector', 'summary'):
         if summary.is_displayed():
             summary.click()
@@ -175,6 +176,51 @@ def estimator(ratio, nees=1.0, diverged=0, bound=None):
         return {'value': x, 'low': 0.99 * x, 'high': 1.01 * x}
     return {'runs': 100, 'diverged': diverged, 'locked_out': None, 'errors': {'position': {'rms': exact(ratio)}}, 'nees': {'full': exact(nees)},
             'ratios': {'bayes_reference': exact(ratio), 'kf': exact(ratio / 2), 'best': exact(1.0), 'bound': exact(bound or ratio)}}
+
+
+@pytest.fixture(scope='module')
+def particles(tmp_path_factory, browser):
+    """The browser on the report of two campaigns that differ in particles alone."""
+    folder = tmp_path_factory.mktemp('particles')
+    front.write_suite(folder, campaigns=[{'name': f'particles_{count}', 'system': 'sins_dvl', 'particles': count, 'estimators': ['pf', 'ss_srupf'], 'laws': front.LAWS[:2]}
+                                         for count in (1000, 50)])
+    front.succeed(folder, 'out', report=True)
+    show(browser, str(folder / 'out' / 'report.html'), 1280, 900)
+    drawn(browser, 'particles_1000', 'contaminated 0.1, K 10', 'ss_srupf')
+    return browser
+
+
+def data_of(browser, name):
+    """What a plot draws, its frame, and the titles of its y axes."""
+    return browser.execute_script("""const p = document.getElementById("plot-" + arguments[0]);
+        return [p.data.map(t => ({name: t.name, x: [...t.x], y: [...t.y], fill: t.fill || null, axis: t.yaxis || 'y'})),
+          Object.keys(p.layout).filter(key => key.startsWith('yaxis')).sort().map(key => p.layout[key].title.text), p.layout.shapes]""", name)
+
+
+def test_a_run_shows_every_error_in_its_unit_with_its_band(particles):
+    lines, titles, _ = data_of(particles, 'errors')
+    assert titles == ['position [m]', 'velocity [m/s]', 'heading [deg]']
+    for axis in ('y', 'y2', 'y3'):
+        row = [line for line in lines if line['axis'] == axis]
+        assert sum(line['fill'] == 'tonexty' for line in row) == 1 and [line['name'] for line in row if line['name'] in ('pf', 'ss_srupf')] == ['pf', 'ss_srupf']
+    band = next(line for line in lines if line['axis'] == 'y3' and line['fill'])
+    assert band['y'][0] == pytest.approx(3 * 0.01 * 57.2958, rel=1e-3)  # the stand-in's heading is wrong by 0.01 rad
+    assert len(band['y']) == 60 and band['x'][:2] == [8, 18]  # where it is stated, without gaps
+
+
+def test_effective_particles_stand_beside_half_of_them(particles):
+    (line,), _, shapes = data_of(particles, 'effective')
+    assert line['name'] == 'ss_srupf' and len(line['y']) == 300 and 400 <= min(line['y']) <= max(line['y']) <= 1000
+    assert [shape['y0'] for shape in shapes] == [500]
+
+
+def test_accuracy_and_cost_are_curves_over_the_particles(particles):
+    lines, titles, _ = data_of(particles, 'particles')
+    assert titles == ['position RMS error [m]', 'computing [µs/update]']
+    assert [(line['name'], line['axis'], line['x']) for line in lines] == [(name, axis, [50, 1000]) for name in ('pf', 'ss_srupf') for axis in ('y', 'y2')]
+    assert all(value > 0 for line in lines for value in line['y'])
+    assert particles.execute_script('return document.querySelectorAll("#c0-particles-0 tbody tr").length') == 4
+    assert severe(particles) == []
 
 
 def test_the_sentences_say_what_the_numbers_say():

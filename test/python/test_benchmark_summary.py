@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The statistics of the front: what the bootstrap covers, what is paired, what is counted instead of averaged."""
 import json
+import re
 import sys
 
 import campaign_front as front
@@ -11,8 +12,10 @@ import pytest
 
 sys.path.insert(0, str(front.ROOT / 'scripts'))
 
+from sas_motion_campaign import units  # noqa: E402
 from sas_motion_campaign.bootstrap import Resampler, interval  # noqa: E402
 from sas_motion_campaign.page.data import chi_square_95  # noqa: E402
+from sas_motion_campaign.particles import families  # noqa: E402
 from sas_motion_campaign.plan import Plan, contiguous_chunks  # noqa: E402
 from sas_motion_campaign.summary import summarise  # noqa: E402
 from sas_motion_campaign.table import terminal_table  # noqa: E402
@@ -77,6 +80,61 @@ def test_images_have_medians_quantiles_and_what_an_aperture_error_costs():
     assert classes[0]['measures']['peak_loss']['median'] == pytest.approx(0.04)
     text = terminal_table(summary, {})
     assert '-2.2 / 3.6' in text and 'below λ/32' in text and '0 of 10' in text
+    jsonschema.validate(summary, json.loads((front.ROOT / 'docs' / 'summary.schema.json').read_text(encoding='utf-8')))
+
+
+def converging(runs, times, the_plan):
+    """Lets the estimator `a` converge at these times, a run each; None where it never does."""
+    for (_, _, seed), run in runs.items():
+        run['results']['a']['convergence'] = {'after': times[seed - 1]}
+    return law(summarise(the_plan, runs, {}))
+
+
+def test_runs_that_never_converged_are_counted_and_take_for_ever():
+    # GIVEN ten runs: three never converge, the others after 10 to 70 s; and one of those diverges
+    the_plan, times = plan(runs=10), [None, 10, 20, None, 30, 40, 50, None, 60, 70]
+    found = converging(records(the_plan, lambda *_: 1.0), times, the_plan)
+    assert found['a']['convergence'] == {'runs': 10, 'converged': 7, 'median': 50, 'q90': None} and 'convergence' not in found['kf']
+    lost = records(the_plan, lambda *_: 1.0)
+    lost['c', 'heavy', 2]['results']['a']['diverged'] = True
+    assert converging(lost, times, the_plan)['a']['convergence'] == {'runs': 10, 'converged': 6, 'median': 60, 'q90': None}
+
+
+def particle_campaign(particles):
+    """A summary's campaign of runs with so many particles, whose errors fall with their root; heading 0.1 rad, way lost 2 %."""
+    the_plan = plan(runs=4, estimators=('a', 'kf'))
+    the_plan.campaigns[0]['particles'] = particles
+    groups = {group: {'rmse': x, 'p95': x, 'max': x} for group, x in (('heading', 0.1), ('drift_percent', 2.0))}
+    runs = records(the_plan, lambda *_: 30 / np.sqrt(particles), **groups, aperture_across=0.003, aperture_wavelengths=0.2)
+    for (_, _, seed), run in runs.items():
+        run['results']['a'].update(effective_size=0.6 * particles, convergence={'after': 5 if seed > 1 else None})
+    return summarise(the_plan, runs, {'c': {'heavy': {'heading': {'rmse': 0.05}}}})
+
+
+def test_the_table_of_errors_has_units_convergence_and_particles():
+    lines = terminal_table(particle_campaign(100), {'c': {'heavy': {'a': 17.5}}}).splitlines()
+    begin = lines.index('heavy: errors')
+    assert re.split(r'  +', lines[begin + 1]) == ['estimator', 'position [m]', 'drift [%]', 'heading [deg]', 'aperture [mm]', 'aperture [λ]', 'NEES/n', 'converged', 'after [s]',
+                                                  'particles [%]', 'us/update']
+    assert re.split(r'  +', lines[begin + 2]) == ['a', '3.00', '2.00', '5.73', '3.00', '0.200', '1.00', '3 of 4', '5 / –', '60.0', '17.5']
+    assert lines[begin + 3].split()[0] == 'kf' and lines[begin + 4].split()[:4] == ['bound', '-', '-', '2.86']
+
+
+def test_unknowns_stand_behind_their_vector_in_its_unit():
+    found = units.ordered(['lever_x', 'heading', 'mounting_y', 'mounting', 'gain', 'lever'])
+    assert [units.title(group) for group in found] == ['mounting [deg]', 'mounting_y [deg]', 'heading [deg]', 'lever [m]', 'lever_x [m]', 'gain']
+    assert [units.factor(group) for group in ('mounting_y', 'lever_x', 'drift_percent')] == pytest.approx([180 / np.pi, 1, 1])
+
+
+def test_campaigns_that_differ_in_particles_alone_make_a_table_over_them():
+    # GIVEN campaigns with 100 and 900 particles, and one with 400 that is longer
+    summary = particle_campaign(900)
+    summary['campaigns'] = {'many': summary['campaigns']['c'], 'few': particle_campaign(100)['campaigns']['c'], 'longer': particle_campaign(400)['campaigns']['c']}
+    summary['campaigns']['longer']['duration'] = 700.0
+    assert families(summary['campaigns']) == [['few', 'many']]
+    lines = terminal_table(summary, {}).splitlines()
+    begin = next(i for i, line in enumerate(lines) if line.startswith('few to many, heavy'))
+    assert [line.split()[:3] for line in lines[begin + 3:begin + 6]] == [['a', '100', '3.00'], ['a', '900', '1.00'], []]  # kf has no particles
     jsonschema.validate(summary, json.loads((front.ROOT / 'docs' / 'summary.schema.json').read_text(encoding='utf-8')))
 
 

@@ -27,6 +27,7 @@ class System {
   std::string title, kind;        ///< of the campaign; of the system
   double duration = 0, skip = 0;  ///< of a run, and of its start that is not scored [s]
   int dimension = 0;              ///< of the state
+  int particles = 0;              ///< of its particle filters; 0 where it has none
   std::vector<std::string> estimators;
   std::vector<LawInfo> laws;
 

@@ -6,13 +6,15 @@ import math
 from sas_motion_report.figures import CHI_SQUARE_95
 from sas_motion_report.inputs import dig, finite
 
+from ..particles import families
+from ..units import factor, title
 
-TIMES = ('time', 'weight_time')
+TIMES = ('time', 'weight_time', 'effective_time')
 
 
 def page_data(summary, costs):
     """Returns the numbers of every campaign."""
-    return {'runs': summary['runs'], 'campaigns': {name: campaign_data(campaign, costs.get(name, {}), summary['runs'])
+    return {'runs': summary['runs'], 'families': families(summary['campaigns']), 'campaigns': {name: campaign_data(campaign, costs.get(name, {}), summary['runs'])
                                                    for name, campaign in summary['campaigns'].items()}}
 
 
@@ -25,7 +27,7 @@ def campaign_data(campaign, costs, runs):
              'diverged': {e: law['estimators'][e]['diverged'] for e in campaign['estimators']},
              'locked_out': {e: law['estimators'][e]['locked_out'] or 0 for e in campaign['estimators']},
              'cost': {e: dig(costs, name, e) for e in campaign['estimators']}} for name, law in campaign['laws'].items()]
-    return {'estimators': campaign['estimators'], 'group': group, 'laws': laws, 'nees_band': nees_band(campaign.get('dimension'), runs)}
+    return {'estimators': campaign['estimators'], 'group': group, 'laws': laws, 'skip': campaign['skip'], 'particles': campaign.get('particles'), 'nees_band': nees_band(campaign.get('dimension'), runs)}
 
 
 def triple(found):
@@ -56,12 +58,19 @@ def trace_data(trace):
 
 def series(columns):
     """Returns one estimator's columns and the bands of its NEES and NIS, where their degrees are known."""
-    found = {key: [shortened(x, 7 if key in TIMES else 4) for x in column] for key, column in columns.items() if isinstance(column, list)}
+    found = {key: [shortened(x, 7 if key in TIMES else 4) for x in column] for key, column in columns.items() if isinstance(column, list) and key != 'others'}
+    found['others'] = [{'title': title(other['group']), **{key: [shortened(scaled(x, other['group'])) for x in other[key]] for key in ('error', 'sigma3')}}
+                       for other in columns.get('others') or []]
     for kind in ('nees', 'nis'):
         degrees = columns.get(f'{kind}_degrees')
         if isinstance(degrees, int) and degrees > 0:
             found[f'{kind}_band'] = [shortened(bound) for bound in chi_square_95(degrees)]
     return found
+
+
+def scaled(x, group):
+    """Returns an error of a group in its unit."""
+    return factor(group) * x if finite(x) else None
 
 
 def shortened(x, digits=4):

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Plots over all runs. Each function takes a view {campaign, law, estimator, trace, theme} and returns {traces, layout}.
+// Plots over all runs. Each function takes a view {campaign, family, law, estimator, traces, trace, theme} and returns {traces, layout}.
 const REFERENCE = 'bayes_reference';
 const SYMBOLS = ['circle', 'square', 'diamond', 'triangle-up', 'x'];
 const EXPONENTS = [-6, -5, -4, -3, -2, -1, 0, 1, 2, 3, 4, 5];
@@ -97,6 +97,24 @@ function costFigure(view) {
   return {traces, layout: frame(theme, theme.narrow ? 460 : 440, {shapes, showlegend: true,
     xaxis: logAxis(theme, 'computing [µs/update]', names.map(name => law.cost[name]), 0.1),
     yaxis: logAxis(theme, unit(campaign.group), [...names.flatMap(name => law.rms[name]), law.bound])})};
+}
+
+/** RMS error and cost over the number of particles, a curve an estimator, of the campaigns that are alike in all else. */
+function particlesFigure(view) {
+  const {campaign, family, theme} = view;
+  const laws = family.map(member => member.laws.find(law => law.name === view.law.name));
+  const x = family.map(member => member.particles);
+  const lines = campaign.estimators.flatMap(name => {
+    const {color, symbol} = look(view, name);
+    const style = {name, x, mode: 'lines+markers', line: {color, width: name === view.estimator ? 3 : 1.3}, marker: {color, symbol, size: 8}};
+    const triples = laws.map(law => law.rms[name]);
+    return [{...style, y: values(triples), error_y: {...bars(triples), color}, legendgroup: name, hovertemplate: '%{x} particles: %{y:.4g}'},
+      {...style, y: laws.map(law => law.cost[name]), yaxis: 'y2', legendgroup: name, showlegend: false, hovertemplate: '%{x} particles: %{y:.3g} µs an update'}];
+  });
+  const errors = laws.flatMap(law => campaign.estimators.flatMap(name => law.rms[name]));
+  const costs = laws.flatMap(law => campaign.estimators.map(name => law.cost[name]));
+  return {traces: family.length ? lines : [], layout: frame(theme, theme.narrow ? 560 : 620, {xaxis: {...logAxis(theme, 'particles', x, 0.1), anchor: 'y2'},
+    yaxis: {...logAxis(theme, unit(campaign.group), errors), domain: [0.48, 1]}, yaxis2: {...logAxis(theme, 'computing [µs/update]', costs), domain: [0, 0.42]}})};
 }
 
 function failuresFigure(view) {

@@ -4,8 +4,8 @@
 const data = JSON.parse(document.getElementById('data').textContent);
 const lawChooser = document.getElementById('law');
 const estimatorChooser = document.getElementById('estimator');
-const figures = {contamination: contaminationFigure, ranking: rankingFigure, cost: costFigure, nees: neesFigure, failures: failuresFigure,
-  errors: errorsFigure, consistency: consistencyFigure, weights: weightsFigure};
+const figures = {contamination: contaminationFigure, ranking: rankingFigure, cost: costFigure, particles: particlesFigure, nees: neesFigure, failures: failuresFigure,
+  errors: errorsFigure, effective: effectiveFigure, consistency: consistencyFigure, weights: weightsFigure};
 let traces = {};
 let drawing = 0;
 
@@ -14,8 +14,9 @@ function currentView() {
   const campaign = data.campaigns[name];
   const law = campaign.laws.find(l => l.name === lawChooser.value) || campaign.laws[0];
   const estimator = estimatorChooser.value;
-  const trace = ((traces[name] || {})[law.name] || {})[estimator];
-  return {campaign, law, estimator, trace, theme: currentTheme(), key: [name, law.name, estimator].join(' / ')};
+  const seen = (traces[name] || {})[law.name] || {};
+  const family = (data.families.find(names => names.includes(name)) || []).map(member => data.campaigns[member]);
+  return {campaign, family, law, estimator, traces: seen, trace: seen[estimator], theme: currentTheme(), key: [name, law.name, estimator].join(' / ')};
 }
 
 /** Offers the laws and estimators of the chosen campaign, and keeps the choice where it exists there too. */

@@ -13,7 +13,7 @@ from sas_motion_report.report import figure, section
 
 from .data import page_data, trace_data
 from .sentences import sentences
-from .tables import campaign_tables
+from .tables import campaign_tables, particle_tables
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 OVER_LAWS = [
@@ -21,10 +21,12 @@ OVER_LAWS = [
      'outliers, or without one, stand side by side.'),
     ('ranking', 'Ranking', 'RMS error under the chosen law with 95 % intervals, the best on top; dashed: the bound.'),
     ('cost', 'Accuracy against cost', 'Under the chosen law. Lower left is better: less computing, less error.'),
+    ('particles', 'Particles against accuracy and cost', 'Under the chosen law, campaigns that differ in the number of particles alone: RMS error with 95 % intervals, and computing.'),
     ('nees', 'NEES over its degrees', 'Under the chosen law, 1 expected, with 95 % intervals. Right of the band the stated uncertainty is too small, left of it too large.'),
     ('failures', 'Divergences and lock-outs', 'Runs that failed under the chosen law.')]
 OF_A_RUN = [
-    ('errors', 'Error of a run', 'Error of the chosen estimator, first seed, and ±3σ of its covariance.'),
+    ('errors', 'Errors of a run', 'Errors of the chosen estimator, first seed, and 3σ of its covariance; the others thin beside it. The frame is that of the scored time.'),
+    ('effective', 'Effective particles of a run', 'Effective sample size of the chosen estimator; dotted: half the particles, below which it resamples.'),
     ('consistency', 'NEES and NIS of a run', 'Of a consistent filter 95 % lie in the band.'),
     ('weights', 'Weights against labels', 'How much the estimator believed each measurement; crosses are the outliers by their labels.')]
 
@@ -38,7 +40,8 @@ def render(summary, costs, trace):
     """Returns the page as text."""
     try:
         data = page_data(summary, costs)
-        panels = [panel(name, campaign, costs.get(name, {}), i) for i, (name, campaign) in enumerate(summary['campaigns'].items())]
+        panels = [panel(name, campaign, costs.get(name, {}), i, particle_tables(summary['campaigns'], costs, name, f'c{i}'))
+                  for i, (name, campaign) in enumerate(summary['campaigns'].items())]
         parts = {'suite': escape(summary['suite']), 'facts': escape(facts(summary)), 'panels': ''.join(panels),
                  'tabs': ''.join(tab(name, i) for i, name in enumerate(summary['campaigns'])),
                  'over_laws': plots(OVER_LAWS), 'of_a_run': plots(OF_A_RUN), 'traces': packed(data_text(trace_data(trace)))}
@@ -62,13 +65,13 @@ def tab(name, i):
             f'data-campaign="{escape(name)}">{escape(name)}</button>')
 
 
-def panel(name, campaign, costs, i):
-    """Returns sentences and tables of a campaign; all panels show on paper and without JavaScript."""
+def panel(name, campaign, costs, i, further):
+    """Returns sentences and tables of a campaign, `further` tables behind; all panels show on paper and without JavaScript."""
     about = f'{campaign["system"]}, {quantity(campaign["duration"])} s a run, the first {quantity(campaign["skip"])} s not scored'
     chief, *others = map(escape, sentences(campaign, costs))
     points = ''.join(f'<li>{sentence}</li>' for sentence in others)
     return (f'<section class="panel" role="tabpanel" id="panel-{i}" aria-labelledby="tab-{i}"><h2>{escape(name)}</h2><p class="facts">{escape(about)}</p>'
-            f'<p class="lead">{chief}</p><ul class="points">{points}</ul>{campaign_tables(campaign, costs, f"c{i}")}</section>')
+            f'<p class="lead">{chief}</p><ul class="points">{points}</ul>{campaign_tables(campaign, costs, f"c{i}")}{further}</section>')
 
 
 def plots(figures):

@@ -15,7 +15,7 @@ def sentences(campaign, costs):
     """Returns the sentences on one campaign, the chief one first."""
     found = [winner(campaign), runner_up(campaign), beside_kf(campaign), bound(campaign), below_bound(campaign), consistency(campaign),
              failures(campaign, 'diverged', 'Diverged, and only counted'), failures(campaign, 'locked_out', 'Locked out: sure of the wrong place for more than five epochs'),
-             cost(campaign, costs)]
+             unconverged(campaign), cost(campaign, costs)]
     return [sentence for sentence in found if sentence]
 
 
@@ -101,6 +101,18 @@ def failures(campaign, key, title):
         counts[name] = lost + (tree[key] or 0), all_of_them + tree['runs']
     lost = [f'{name} {n} of {all_of_them} runs' for name, (n, all_of_them) in counts.items() if n]
     return f'{title}: {listing(lost)}.' if lost else None
+
+
+def unconverged(campaign):
+    """Counts the runs that never came near the truth to stay, by estimator; None where all did or nobody watched."""
+    counts = {}
+    for law, name in pairs(campaign):
+        found = dig(law, 'estimators', name, 'convergence')
+        if found:
+            lost, all_of_them = counts.get(name, (0, 0))
+            counts[name] = lost + found['runs'] - found['converged'], all_of_them + found['runs']
+    lost = [f'{name} {n} of {all_of_them} runs' for name, (n, all_of_them) in counts.items() if n]
+    return f'Never near the truth to stay: {listing(lost)}.' if lost else None
 
 
 def cost(campaign, costs):

@@ -7,6 +7,7 @@ from sas_motion_report.columns import number
 from sas_motion_report.inputs import dig, finite
 from sas_motion_report.tables import table
 
+from .. import errors, particles
 from ..images import CAPTION, COSTS_CAPTION, cost_rows, image_rows
 from .yardstick import NAMES, contenders, ranked, yardstick
 
@@ -18,10 +19,22 @@ def campaign_tables(campaign, costs, name):
     return overview(campaign, name) + images(campaign, name) + failures(campaign, name) + details(campaign, costs, name)
 
 
+def particle_tables(campaigns, costs, name, identity):
+    """Returns the tables over the number of particles of the family that a campaign belongs to; empty where it has none."""
+    family = next((family for family in particles.families(campaigns) if name in family), None)
+    return ''.join(plain(f'{escape(law)}: {particles.CAPTION}', particles.particle_rows(campaigns, family, law, costs), f'{identity}-particles-{i}')
+                   for i, law in enumerate(campaigns[name]['laws'])) if family else ''
+
+
+def plain(caption, rows, name):
+    """Returns a table of cells as they are, the titles first; empty without rows."""
+    return table(caption, map(escape, rows[0]), [[escape(cell) for cell in row] for row in rows[1:]], name) if rows else ''
+
+
 def images(campaign, name):
     """Returns the tables of images, a law each, and of what an aperture error costs; empty without images."""
     tables = [(f'{escape(law)}: {CAPTION}', image_rows(found, campaign['estimators'])) for law, found in campaign['laws'].items()] + [(COSTS_CAPTION, cost_rows(campaign))]
-    return ''.join(table(caption, rows[0], [[escape(cell) for cell in row] for row in rows[1:]], f'{name}-images-{i}') for i, (caption, rows) in enumerate(tables) if rows)
+    return ''.join(plain(caption, rows, f'{name}-images-{i}') for i, (caption, rows) in enumerate(tables))
 
 
 def overview(campaign, name):
@@ -65,8 +78,9 @@ def lost(tree):
 
 
 def details(campaign, costs, name):
-    """Returns the ranking of every law, folded up."""
-    return ''.join(f'<details><summary>Ranking under {escape(law)}{note(law, tree)}</summary>{ranking(campaign, tree, dig(costs, law), f"{name}-ranking-{i}")}</details>'
+    """Returns the ranking and all errors of every law, folded up."""
+    return ''.join(f'<details><summary>Ranking and errors under {escape(law)}{note(law, tree)}</summary>{ranking(campaign, tree, dig(costs, law), f"{name}-ranking-{i}")}'
+                   f'{plain(errors.CAPTION, errors.error_rows(campaign, tree, dig(costs, law)), f"{name}-errors-{i}")}</details>'
                    for i, (law, tree) in enumerate(campaign['laws'].items()))
 
 
