@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "sas_motion/filters/particles/particle_filter.hpp"
+#include "sas_motion/filters/particles/simplex_blocks.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
-#include "sas_motion/filters/square_root_filter.hpp"
 #include "sas_motion/pipeline/sins_estimator.hpp"
 #include "sas_motion/pipeline/smooth_track.hpp"
 
@@ -133,7 +133,7 @@ class Navigator final : public ins::Estimator {
     }
     const auto update = filter_.template update<4>(z, h, Matrix<4>(variance.asDiagonal()));
     filter_.replace([&](const Vector<N>& x) { return view.constrained(x); });
-    mean_ = filter_.belief().mean;
+    mean_ = filter_.mean();
     if (smooth_) track_->jump(fused());
     for (const auto& one : group.readings) output.audits.push_back(auditOf(one, update));
   }
@@ -182,9 +182,8 @@ std::unique_ptr<ins::Estimator> makeNavigator(const NamedFilter& named, const Co
   };
   switch (named.kind) {
     case FilterKind::Bootstrap: return navigator(ParticleFilter<N>(options));
-    case FilterKind::Unscented:
-      return navigator(UnscentedParticleFilter<N, UnscentedKalmanFilter<N>>(UnscentedKalmanFilter<N>(unscentedPoints<N>({1, 0, 1})), options));
-    case FilterKind::SquareRoot: return navigator(UnscentedParticleFilter<N, SimplexFilter<N>>(SimplexFilter<N>(simplexPoints<N>(kCentreWeight)), options));
+    case FilterKind::Unscented: return navigator(UnscentedParticleFilter(OneByOne(UnscentedKalmanFilter<N>(unscentedPoints<N>({1, 0, 1}))), options));
+    case FilterKind::SquareRoot: return navigator(UnscentedParticleFilter(SimplexBlocks<N>(simplexPoints<N>(kCentreWeight), config.vectorised), options));
   }
   return nullptr;
 }

@@ -6,9 +6,9 @@
 
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/particles/particle_filter.hpp"
+#include "sas_motion/filters/particles/simplex_blocks.hpp"
 #include "sas_motion/filters/particles/unscented_particle_filter.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
-#include "sas_motion/filters/square_root_filter.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "support.hpp"
 
@@ -18,9 +18,9 @@ namespace {
 using testing::announced;
 
 template <int N>
-using Upf = UnscentedParticleFilter<N, SigmaPointFilter<N, 2 * N + 1>>;
+using Upf = UnscentedParticleFilter<N, OneByOne<UnscentedKalmanFilter<N>>>;
 template <int N>
-using SsSrupf = UnscentedParticleFilter<N, SimplexFilter<N>>;
+using SsSrupf = UnscentedParticleFilter<N, SimplexBlocks<N>>;
 
 ParticleOptions options(int particles, std::uint64_t seed = 1, int threads = 1) {
   ParticleOptions all;
@@ -35,7 +35,7 @@ Upf<N> upf(const ParticleOptions& particles, Weighting weighting = Weighting::Mi
   UnscentedParticleOptions all;
   static_cast<ParticleOptions&>(all) = particles;
   all.weighting = weighting;
-  return {SigmaPointFilter(unscentedPoints<N>({1, 0, 1})), all};
+  return {OneByOne(UnscentedKalmanFilter<N>(unscentedPoints<N>({1, 0, 1}))), all};
 }
 
 template <int N>
@@ -43,7 +43,7 @@ SsSrupf<N> ssSrupf(const ParticleOptions& particles, Weighting weighting = Weigh
   UnscentedParticleOptions all;
   static_cast<ParticleOptions&>(all) = particles;
   all.weighting = weighting;
-  return {SquareRootFilter(simplexPoints<N>(0.2)), all};
+  return {SimplexBlocks<N>(simplexPoints<N>(0.2)), all};
 }
 
 /// A walk with a velocity, whose position is read.
