@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/imaging/backprojection.hpp"
 
-
 #include <limits>
 
 #include "imaging/imaging_support.hpp"

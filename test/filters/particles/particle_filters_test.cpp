@@ -153,6 +153,26 @@ TEST(ParticleFilters, GiveTheSameBitsOnAnyNumberOfThreads) {
     expectTheSameOnAnyNumberOfThreads([&](int threads) { return ssSrupf<2>(options(333, 4, threads), weighting); });
 }
 
+TEST(ParticleFilters, ACopyGoesOnAsItsOriginalAndApartFromIt) {
+  const Walk walk;
+  const auto step = [&](SsSrupf<2>& filter, double z) {
+    filter.predict([&](const Vector<2>& x) { return walk.move(x); }, walk.Q_root);
+    filter.update(
+        Vector<1>(z), [&](const Vector<2>& x) { return walk.read(x); }, walk.R);
+  };
+  auto original = ssSrupf<2>(options(100, 3, 2));
+  ASSERT_TRUE(original.start({}));
+  step(original, 0.5);
+  auto copy = original;
+  const Gaussian<2> before = copy.belief();
+  step(original, 0.7);
+  EXPECT_EQ(copy.belief().mean, before.mean);
+  step(copy, 0.7);
+  EXPECT_EQ(copy.belief().mean, original.belief().mean);
+  EXPECT_EQ(copy.belief().covariance, original.belief().covariance);
+  EXPECT_EQ(copy.mean(), copy.belief().mean);
+}
+
 /// x' = x / 2 + 25 x / (1 + x^2) + 8 cos(1.2 k) + w, z = x^2 / 20 + v, of variances 10 and 1: two answers to most readings. [Gordon1993, 4.1]
 template <class Make>
 double growthError(const Make& make, int seeds) {

@@ -124,12 +124,13 @@ TEST(SimplexBlocks, GoOnByTheFilterAloneWhereARootCannotBeDowndated) {
   for (const std::size_t k : {2u, 5u}) beliefs[k].root.setZero();
   const SimplexBlocks<16> filter(simplexPoints<16>(0.2));
   // WHEN they read THEN what they know stays, and they are weighed as they are alone
-  const auto step = stepOf<16, 2>(filter, beliefs, Matrix<16>::Zero());
+  const auto step = stepOf<16, 4>(filter, beliefs, Matrix<16>::Zero());
+  const Vector<4> z = Vector<4>::LinSpaced(2.5, 3.5);
+  const Matrix<4> R_root = Vector<4>::LinSpaced(0.3, 0.4).asDiagonal();
   for (const std::size_t k : {2u, 5u}) {
     EXPECT_EQ(step.updated[k].mean, step.predicted[k].mean);
     EXPECT_EQ(step.updated[k].root, (Matrix<16>::Zero()));
-    const Vector<2> residual = Vector<2>(2.5, 3.5) - look<16, 2>(step.predicted[k].mean);
-    EXPECT_NEAR(step.likelihoods[k], (logDensity<2>(residual, Matrix<2>(Vector<2>(0.3, 0.4).asDiagonal()))), 1e-9);
+    EXPECT_NEAR(step.likelihoods[k], logDensity<4>(z - look<16, 4>(step.predicted[k].mean), R_root), 1e-9);
   }
 }
 

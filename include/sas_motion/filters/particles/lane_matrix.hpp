@@ -18,6 +18,12 @@ class Lanes {
   double& operator()(int element, int lane) { return values_[blocks::kLanes * element + lane]; }
   double operator()(int element, int lane) const { return values_[blocks::kLanes * element + lane]; }
 
+  bool finite(int lane) const {
+    double none = 0;
+    for (int element = 0; element < Size; ++element) none += 0 * (*this)(element, lane);
+    return none == 0;
+  }
+
   /// Lanes from `count` > 0 on become copies of the last before them, so that they hold numbers.
   void fillFrom(int count) {
     if (count == blocks::kLanes) return;
@@ -32,8 +38,7 @@ class Lanes {
 template <int Rows, int Cols = 1>
 class LaneMatrix : public Lanes<Rows * Cols> {
  public:
-  template <class Column>
-  void setColumn(int col, int lane, const Column& column) {
+  void setColumn(int col, int lane, const Vector<Rows>& column) {
     for (int row = 0; row < Rows; ++row) (*this)(row * Cols + col, lane) = column(row);
   }
   Vector<Rows> column(int col, int lane) const {
@@ -52,14 +57,19 @@ class LaneMatrix : public Lanes<Rows * Cols> {
 template <int N>
 class LaneRoot : public Lanes<N*(N + 1) / 2> {
  public:
-  void set(int lane, const Matrix<N>& root) {
+  /// From `root(lane)`.
+  template <class Roots>
+  void set(const Roots& root) {
+    const double* from[blocks::kLanes];
+    for (int lane = 0; lane < blocks::kLanes; ++lane) from[lane] = root(lane).data();
     for (int col = 0; col < N; ++col)
-      for (int row = col; row < N; ++row) (*this)(at(row, col), lane) = root(row, col);
+      for (int row = col; row < N; ++row)
+        for (int lane = 0; lane < blocks::kLanes; ++lane) (*this)(at(row, col), lane) = from[lane][N * col + row];
   }
   void setAll(const Matrix<N>& root) {
-    for (int lane = 0; lane < blocks::kLanes; ++lane) set(lane, root);
+    set([&](int) -> const Matrix<N>& { return root; });
   }
-  /// Its lower triangle; the rest of `root` stays.
+  /// The lower triangle of `root` becomes that of a lane; the rest stays.
   void get(int lane, Matrix<N>& root) const {
     for (int col = 0; col < N; ++col)
       for (int row = col; row < N; ++row) root(row, col) = (*this)(at(row, col), lane);

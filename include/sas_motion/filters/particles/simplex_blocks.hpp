@@ -33,20 +33,15 @@ class SimplexBlocks {
     if (!together(count)) return each_.predict(count, belief, f, Q_root, lost);
     Room room;
     load(count, belief, room);
-    for (int point = 0; point < kPoints; ++point)
-      for (int k = 0; k < count; ++k) room.offsets.setColumn(point, k, f(room.point(point, k)));
-    room.offsets.fillFrom(count);
+    land<N>(count, room, f, room.offsets);
     blocks::average(points_.mean_weights.data(), root_weights_.data(), N, kPoints, room.offsets.data(), room.mean.data());
     room.root.setAll(Q_root);
     blocks::addSquares(room.root.data(), N, room.offsets.data(), kPoints);
-    for (int k = 0; k < count; ++k) {
-      Belief prior{room.mean.column(0, k), Matrix<N>::Zero()};
-      room.root.get(k, prior.root);
-      if (prior.mean.allFinite() && prior.root.allFinite())
-        belief(k) = prior;
+    for (int k = 0; k < count; ++k)
+      if (room.mean.finite(k) && room.root.finite(k))
+        store(room, k, belief(k));
       else
         lost(k);
-    }
   }
 
   /// See OneByOne.
@@ -58,20 +53,18 @@ class SimplexBlocks {
     Room room;
     Reading<M> reading;
     load(count, belief, room);
-    for (int point = 0; point < kPoints; ++point)
-      for (int k = 0; k < count; ++k) reading.deviations.setColumn(point, k, h(room.point(point, k)));
+    land<M>(count, room, h, reading.deviations);
     compare<M>(count, z, difference, reading);
     reading.S_root.setAll(R_root);
     condition<M>(room, reading);
     for (int k = 0; k < count; ++k) {
-      if (reading.done(0, k) != 1) {
-        each_.template update<M>(
-            1, [&](int) -> Belief& { return belief(k); }, z, h, R_root, difference, [&](int, double log_likelihood) { weigh(k, log_likelihood); });
-        continue;
+      if (reading.done(0, k) == 1) {
+        store(room, k, belief(k));
+        weigh(k, -0.5 * reading.nis(0, k) - reading.S_root.logDeterminant(k));
+      } else {
+        const auto it = [&](int) -> Belief& { return belief(k); };
+        each_.template update<M>(1, it, z, h, R_root, difference, [&](int, double log_likelihood) { weigh(k, log_likelihood); });
       }
-      belief(k).mean = room.mean.column(0, k);
-      room.root.get(k, belief(k).root);
-      weigh(k, -0.5 * reading.nis(0, k) - reading.S_root.logDeterminant(k));
     }
   }
 
@@ -84,11 +77,11 @@ class SimplexBlocks {
     LaneMatrix<1> weights;
     sums.setAll(Matrix<N>::Zero());
     for (int first = 0; first < count; first += blocks::kLanes) {
+      const auto of = [&](int lane) -> const Belief& { return belief(std::min(first + lane, count - 1)); };
+      root.set([&](int lane) -> const Matrix<N>& { return of(lane).root; });
       for (int lane = 0; lane < blocks::kLanes; ++lane) {
-        const int k = std::min(first + lane, count - 1);
-        root.set(lane, belief(k).root);
-        offset.setColumn(0, lane, belief(k).mean - mean);
-        weights(0, lane) = first + lane < count ? weight(k) : 0;
+        offset.setColumn(0, lane, of(lane).mean - mean);
+        weights(0, lane) = first + lane < count ? weight(first + lane) : 0;
       }
       blocks::addSecondMoments(root.data(), offset.data(), weights.data(), N, sums.data());
     }
@@ -107,7 +100,6 @@ class SimplexBlocks {
     LaneMatrix<N> mean;
     LaneRoot<N> root;
     LaneMatrix<N, kPoints> offsets;  // of the points from the mean; in a prediction then where they land
-    Vector<N> point(int i, int lane) const { return mean.column(0, lane) + offsets.column(i, lane); }
   };
 
   template <int M>
@@ -123,20 +115,36 @@ class SimplexBlocks {
 
   template <class Beliefs>
   void load(int count, const Beliefs& belief, Room& room) const {
-    for (int k = 0; k < count; ++k) {
-      room.mean.setColumn(0, k, belief(k).mean);
-      room.root.set(k, belief(k).root);
-    }
-    room.mean.fillFrom(count);
-    room.root.fillFrom(count);
+    const auto of = [&](int lane) -> const Belief& { return belief(std::min(lane, count - 1)); };
+    for (int lane = 0; lane < blocks::kLanes; ++lane) room.mean.setColumn(0, lane, of(lane).mean);
+    room.root.set([&](int lane) -> const Matrix<N>& { return of(lane).root; });
     blocks::spread(room.root.data(), shared_.data(), N, room.offsets.data());
+  }
+
+  static void store(const Room& room, int lane, Belief& belief) {
+    belief.mean = room.mean.column(0, lane);
+    room.root.get(lane, belief.root);
+  }
+
+  /// Where a function sends the points; `landed` may be the room's offsets. All lanes' points are laid out before the function is called, which would
+  /// otherwise wait for what has just been written.
+  template <int M, class Function>
+  void land(int count, const Room& room, const Function& function, LaneMatrix<M, kPoints>& landed) const {
+    Vector<N> x[blocks::kLanes];
+    Vector<M> y[blocks::kLanes];
+    for (int point = 0; point < kPoints; ++point) {
+      for (int row = 0; row < N; ++row)
+        for (int lane = 0; lane < blocks::kLanes; ++lane) x[lane](row) = room.mean(row, lane) + room.offsets(row * kPoints + point, lane);
+      for (int lane = 0; lane < blocks::kLanes; ++lane) y[lane] = lane < count ? function(x[lane]) : y[count - 1];
+      for (int row = 0; row < M; ++row)
+        for (int lane = 0; lane < blocks::kLanes; ++lane) landed(row * kPoints + point, lane) = y[lane](row);
+    }
   }
 
   /// Means, weighted deviations and innovations of where h sent the points.
   template <int M, class Difference>
   void compare(int count, const Vector<M>& z, const Difference& difference, Reading<M>& reading) const {
     if constexpr (std::is_same_v<Difference, PlainDifference>) {
-      reading.deviations.fillFrom(count);
       blocks::average(points_.mean_weights.data(), root_weights_.data(), M, kPoints, reading.deviations.data(), reading.mean.data());
     } else {
       for (int k = 0; k < count; ++k) {
