@@ -4,14 +4,13 @@
 // Speckle on a flat bottom, heard from an almost straight track, and how fast it is focused: what the measurements of backprojection share.
 #pragma once
 
-#include <hwy/targets.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
 
+#include "parallel/instruction_sets.hpp"
 #include "sas_motion/imaging/backprojection.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
@@ -90,18 +89,6 @@ Rate rate(const EchoLines& lines, int repeats, Make&& make) {
   Rate found;
   for (int i = 0; i < repeats; ++i) found = found.best(rateOnce(lines, make));
   return found;
-}
-
-/// Calls measure() once for each set of vector instructions of this machine, with which backproject() then works.
-template <class Measure>
-void forEachInstructionSet(Measure&& measure) {
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    measure();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 }  // namespace sas_motion::benchmark

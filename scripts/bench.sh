@@ -44,6 +44,13 @@ echo; echo "bench: USBL calibration: an update of each filter, and the batch"
 echo; echo "bench: USBL calibration: how the noise is followed, and a circle that tells too little"
 "$tools/usbl_figures" $((smoke == 1 ? 3 : 300))
 
+if [ -x "$tools/particle_speed" ]; then
+  echo; echo "bench: particle filters of SINS and DVL, with and without vector instructions"
+  size=(40 1200)
+  [ "$smoke" = 0 ] || size=(2 48)
+  "$tools/particle_speed" "$root/config" "${size[@]}"
+fi
+
 if [ -x "$tools/backprojection_speed" ]; then
   echo; echo "bench: backprojection, by vector instructions, beside a plain loop in double; and factorised"
   "$tools/backprojection_speed" $((smoke == 1 ? 1 : 20))

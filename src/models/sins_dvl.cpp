@@ -64,20 +64,21 @@ NavigationState moved(const NavigationState& state, const Preintegration& felt, 
   const Matrix<3> C = state.q_nav_body.toRotationMatrix();
   Vector<3> velocity = C * felt.velocity(eps, nabla), way = C * felt.way(eps, nabla);
   const auto [M, N] = earth::radiiBySine(s, state.height);
+  const double per_T = 1 / T, per_M = 1 / M, per_N = 1 / N, per_parallel = per_N / c;
   const Vector<3> gravity(0, 0, -earth::gravityBySine(s, state.height)), turning(0, earth::kRotationRate * c, earth::kRotationRate * s);
-  const auto overEarth = [&, N = N, M = M](const Vector<3>& v) { return Vector<3>(-v.y() / M, v.x() / N, v.x() * s / (c * N)); };
+  const auto overEarth = [&](const Vector<3>& v) { return Vector<3>(-v.y() * per_M, v.x() * per_N, v.x() * s * per_parallel); };
   const auto pull = [&](const Vector<3>& v) -> Vector<3> { return gravity - (2 * turning + overEarth(v)).cross(v); };
 
   const Vector<3> v = state.velocity_nav;
-  const Vector<3> middle_v = v + way / T + 0.5 * T * pull(v);
+  const Vector<3> middle_v = v + per_T * way + 0.5 * T * pull(v);
   const Vector<3> turn = turning + overEarth(middle_v), acceleration = pull(middle_v);
   velocity -= turn.cross(T * velocity - way);  // what is felt later is felt on axes that the Earth has turned
   way -= turn.cross(T / 3 * way);
-  const Vector<3> mean_v = v + way / T + 0.5 * T * acceleration;
+  const Vector<3> mean_v = v + per_T * way + 0.5 * T * acceleration;
 
   NavigationState end;
-  end.latitude = state.latitude + T * mean_v.y() / M;
-  end.longitude = state.longitude + T * mean_v.x() / (N * c);
+  end.latitude = state.latitude + T * mean_v.y() * per_M;
+  end.longitude = state.longitude + T * mean_v.x() * per_parallel;
   end.height = state.height + T * mean_v.z();
   end.velocity_nav = v + velocity + T * acceleration;
   end.q_nav_body = quaternionOf(-T * turn) * state.q_nav_body * felt.rotation(eps);

@@ -9,8 +9,8 @@
 #include <type_traits>
 
 #include "sas_motion/filters/particles/particle_filter.hpp"
+#include "sas_motion/filters/particles/simplex_blocks.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
-#include "sas_motion/filters/square_root_filter.hpp"
 #include "sas_motion/pipeline/bridged_gap.hpp"
 #include "sas_motion/pipeline/ins_alignment.hpp"
 #include "sas_motion/pipeline/sins_estimator.hpp"
@@ -65,7 +65,7 @@ class Navigator final : public ins::Estimator {
       fuse(group, output);
     }
     advance(reading, reading.stamp, gap);
-    if (!covariance_) covariance_ = covarianceOf(filter_->belief());
+    if (!smooth_ && !covariance_) covariance_ = covarianceOf(filter_->belief());
     if (smooth_)
       output.solutions.push_back({ins_->stamp(), track_->state(), true, true, std::nullopt, rateOverGround()});
     else
@@ -156,9 +156,8 @@ class Navigator final : public ins::Estimator {
     Filter& filter = ownFilter();
     const auto update = filter.template update<4>(z, h, Matrix<4>(variance.asDiagonal()));
     filter.replace([&](const Vector<N>& x) { return view.constrained(x); });
-    const Gaussian<N> belief = filter.belief();
-    mean_ = belief.mean;
-    covariance_ = covarianceOf(belief);
+    mean_ = filter.mean();
+    covariance_.reset();
     if (smooth_) track_->jump(fused());
     for (const auto& one : group.readings)
       if (fuses(one.sensor)) output.audits.push_back(auditOf(one, update));
@@ -215,9 +214,8 @@ std::unique_ptr<ins::Estimator> makeNavigator(const NamedFilter& named, const Co
   };
   switch (named.kind) {
     case FilterKind::Bootstrap: return navigator(ParticleFilter<N>(options));
-    case FilterKind::Unscented:
-      return navigator(UnscentedParticleFilter<N, UnscentedKalmanFilter<N>>(UnscentedKalmanFilter<N>(unscentedPoints<N>({1, 0, 1})), options));
-    case FilterKind::SquareRoot: return navigator(UnscentedParticleFilter<N, SimplexFilter<N>>(SimplexFilter<N>(simplexPoints<N>(kCentreWeight)), options));
+    case FilterKind::Unscented: return navigator(UnscentedParticleFilter(OneByOne(UnscentedKalmanFilter<N>(unscentedPoints<N>({1, 0, 1}))), options));
+    case FilterKind::SquareRoot: return navigator(UnscentedParticleFilter(SimplexBlocks<N>(simplexPoints<N>(kCentreWeight), config.vectorised), options));
   }
   return nullptr;
 }

@@ -11,11 +11,11 @@
 #include "sas_motion/filters/gated_kalman_filter.hpp"
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/particles/particle_filter.hpp"
+#include "sas_motion/filters/particles/simplex_blocks.hpp"
 #include "sas_motion/filters/particles/unscented_particle_filter.hpp"
 #include "sas_motion/filters/reacquiring_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
-#include "sas_motion/filters/square_root_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
 #include "sas_motion/models/towfish.hpp"
 #include "sas_motion/navigation/mechanisation.hpp"
@@ -144,12 +144,13 @@ TEST_F(Allocation, ParticlesUseNoHeap) {
   options.loss = Loss(LossKind::Tukey);
   options.threads = 2;
   expectNoAllocationOfParticles("pf", ParticleFilter<4>(options));
-  const SquareRootFilter root_form(simplexPoints<4>(0.2));
-  const SigmaPointFilter covariance_form(unscentedPoints<4>({1, 0, 1}));
+  const SimplexBlocks<4> blocks(simplexPoints<4>(0.2)), one_by_one(simplexPoints<4>(0.2), false);
+  const OneByOne unscented(UnscentedKalmanFilter<4>(unscentedPoints<4>({1, 0, 1})));
   for (const auto weighting : {Weighting::Mixture, Weighting::OptimalProposal, Weighting::Literal}) {
     options.weighting = weighting;
-    expectNoAllocationOfParticles("ss_srupf", UnscentedParticleFilter<4, SimplexFilter<4>>(root_form, options));
-    expectNoAllocationOfParticles("upf", UnscentedParticleFilter<4, SigmaPointFilter<4, 9>>(covariance_form, options));
+    expectNoAllocationOfParticles("ss_srupf", UnscentedParticleFilter(blocks, options));
+    expectNoAllocationOfParticles("ss_srupf, one by one", UnscentedParticleFilter(one_by_one, options));
+    expectNoAllocationOfParticles("upf", UnscentedParticleFilter(unscented, options));
   }
 }
 

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/imaging/backprojection.hpp"
 
-#include <hwy/targets.h>
-
 #include <limits>
 
 #include "imaging/imaging_support.hpp"
+#include "parallel/instruction_sets.hpp"
 
 namespace sas_motion::imaging::testing {
 namespace {
@@ -24,14 +23,10 @@ EchoLines speckleLines(const SonarDescription& sonar, const std::vector<PingPose
 /// Runs `test` with each set of vector instructions that this machine has.
 template <class Test>
 void onEveryTarget(Test&& test) {
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  forEachInstructionSet([&] {
     SCOPED_TRACE(backprojectionTarget());
     test();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  });
 }
 
 TEST(Backprojection, IsWithin60DecibelsOfDoubleOnEveryTarget) {

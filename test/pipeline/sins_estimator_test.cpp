@@ -24,11 +24,12 @@ struct Outcome {
   Vector<3> position_error, attitude_error;  // at the end
 };
 
-Outcome run(const Scenario& scenario, const ins::Recording& recording, const std::string& name, int particles, int threads = 1) {
+Outcome run(const Scenario& scenario, const ins::Recording& recording, const std::string& name, int particles, int threads = 1, bool vectorised = true) {
   Config config;
   config.parameters = scenario.parameters;
   config.particles.particles = particles;
   config.particles.threads = threads;
+  config.vectorised = vectorised;
   const auto estimator = makeEstimator(name, config);
   estimator->start(recording.start, 0);
   ins::Output output;
@@ -79,6 +80,15 @@ TEST(SinsEstimator, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto one = run(scenario, recording, "ss_srupf", 100, 1), three = run(scenario, recording, "ss_srupf", 100, 3);
   EXPECT_EQ(one.position_error, three.position_error);
   EXPECT_EQ(one.attitude_error, three.attitude_error);
+}
+
+TEST(SinsEstimator, GivesTheSameByVectorInstructionsAndWithout) {
+  const Scenario scenario = scenarioOf("large_angle", 20);
+  const auto recording = recordingOf(scenario, 5);
+  const auto blocks = run(scenario, recording, "ss_srupf", 100), each = run(scenario, recording, "ss_srupf", 100, 1, false);
+  EXPECT_LT((blocks.position_error - each.position_error).norm(), 1e-6);
+  EXPECT_LT((blocks.attitude_error - each.attitude_error).norm(), 1e-9);
+  EXPECT_NEAR(blocks.audits.back().effective_size, each.audits.back().effective_size, 1e-3);
 }
 
 TEST(SinsEstimator, SixteenStatesTakeTheirWayToo) {

@@ -23,18 +23,26 @@ struct SigmaImage {
   Matrix<M, Count> deviations;  ///< of the function at each point from it
 };
 
-/// Sends x + dX through `function`. Means are formed of differences from one image, that of the mean where it is a point, so that points on
-/// both sides of +-pi average rightly.
+/// The mean of where points landed; they become deviations from it. It is formed of differences from one of them, or another near them, so that
+/// points on both sides of +-pi average rightly.
+template <int M, int N, int Count, class Difference>
+Vector<M> average(const SigmaPoints<N, Count>& points, const Vector<M>& reference, Matrix<M, Count>& landed, const Difference& difference) {
+  Matrix<M, Count> offsets;
+  for (int i = 0; i < Count; ++i) offsets.col(i) = difference(Vector<M>(landed.col(i)), reference);
+  const Vector<M> mean = reference + offsets * points.mean_weights;
+  for (int i = 0; i < Count; ++i) landed.col(i) = difference(Vector<M>(landed.col(i)), mean);
+  return mean;
+}
+
+/// Sends x + dX through `function`. The reference of the mean is the image of x where that is a point.
 template <int M, int N, int Count, class Function, class Difference>
 SigmaImage<N, M, Count> imageOf(const SigmaPoints<N, Count>& points, const Vector<N>& x, const Matrix<N, Count>& dX, const Function& function,
                                 const Difference& difference) {
-  Matrix<M, Count> landed, offsets;
-  for (int i = 0; i < Count; ++i) landed.col(i) = function(Vector<N>(x + dX.col(i)));
+  SigmaImage<N, M, Count> image{dX, {}, {}};
+  for (int i = 0; i < Count; ++i) image.deviations.col(i) = function(Vector<N>(x + dX.col(i)));
   const bool centred = points.offsets.col(0).isZero(0);
-  const Vector<M> reference = centred ? Vector<M>(landed.col(0)) : Vector<M>(function(x));
-  for (int i = 0; i < Count; ++i) offsets.col(i) = difference(Vector<M>(landed.col(i)), reference);
-  SigmaImage<N, M, Count> image{dX, reference + offsets * points.mean_weights, {}};
-  for (int i = 0; i < Count; ++i) image.deviations.col(i) = difference(Vector<M>(landed.col(i)), image.mean);
+  const Vector<M> reference = centred ? Vector<M>(image.deviations.col(0)) : Vector<M>(function(x));
+  image.mean = average<M>(points, reference, image.deviations, difference);
   return image;
 }
 

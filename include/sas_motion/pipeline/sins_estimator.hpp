@@ -19,6 +19,7 @@ struct Config {
   UnscentedParticleOptions particles;  ///< number, threads, seed; the estimator's name says the weighting and whether there is a loss
   bool accelerometer_bias = true;      ///< 19 states; else the paper's 16
   double longest_step = 1;             ///< of one prediction of the filter [s]
+  bool vectorised = true;              ///< square-root filters by vector instructions, where there are any
 };
 
 /// The same where an alignment found the start and the lever arms.

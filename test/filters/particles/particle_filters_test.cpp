@@ -6,9 +6,9 @@
 
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/particles/particle_filter.hpp"
+#include "sas_motion/filters/particles/simplex_blocks.hpp"
 #include "sas_motion/filters/particles/unscented_particle_filter.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
-#include "sas_motion/filters/square_root_filter.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "support.hpp"
 
@@ -18,9 +18,9 @@ namespace {
 using testing::announced;
 
 template <int N>
-using Upf = UnscentedParticleFilter<N, SigmaPointFilter<N, 2 * N + 1>>;
+using Upf = UnscentedParticleFilter<N, OneByOne<UnscentedKalmanFilter<N>>>;
 template <int N>
-using SsSrupf = UnscentedParticleFilter<N, SimplexFilter<N>>;
+using SsSrupf = UnscentedParticleFilter<N, SimplexBlocks<N>>;
 
 ParticleOptions options(int particles, std::uint64_t seed = 1, int threads = 1) {
   ParticleOptions all;
@@ -35,7 +35,7 @@ Upf<N> upf(const ParticleOptions& particles, Weighting weighting = Weighting::Mi
   UnscentedParticleOptions all;
   static_cast<ParticleOptions&>(all) = particles;
   all.weighting = weighting;
-  return {SigmaPointFilter(unscentedPoints<N>({1, 0, 1})), all};
+  return {OneByOne(UnscentedKalmanFilter<N>(unscentedPoints<N>({1, 0, 1}))), all};
 }
 
 template <int N>
@@ -43,7 +43,7 @@ SsSrupf<N> ssSrupf(const ParticleOptions& particles, Weighting weighting = Weigh
   UnscentedParticleOptions all;
   static_cast<ParticleOptions&>(all) = particles;
   all.weighting = weighting;
-  return {SquareRootFilter(simplexPoints<N>(0.2)), all};
+  return {SimplexBlocks<N>(simplexPoints<N>(0.2)), all};
 }
 
 /// A walk with a velocity, whose position is read.
@@ -151,6 +151,26 @@ TEST(ParticleFilters, GiveTheSameBitsOnAnyNumberOfThreads) {
   expectTheSameOnAnyNumberOfThreads([](int threads) { return ParticleFilter<2>(options(333, 4, threads)); });
   for (const auto weighting : {Weighting::Mixture, Weighting::OptimalProposal, Weighting::Literal})
     expectTheSameOnAnyNumberOfThreads([&](int threads) { return ssSrupf<2>(options(333, 4, threads), weighting); });
+}
+
+TEST(ParticleFilters, ACopyGoesOnAsItsOriginalAndApartFromIt) {
+  const Walk walk;
+  const auto step = [&](SsSrupf<2>& filter, double z) {
+    filter.predict([&](const Vector<2>& x) { return walk.move(x); }, walk.Q_root);
+    filter.update(
+        Vector<1>(z), [&](const Vector<2>& x) { return walk.read(x); }, walk.R);
+  };
+  auto original = ssSrupf<2>(options(100, 3, 2));
+  ASSERT_TRUE(original.start({}));
+  step(original, 0.5);
+  auto copy = original;
+  const Gaussian<2> before = copy.belief();
+  step(original, 0.7);
+  EXPECT_EQ(copy.belief().mean, before.mean);
+  step(copy, 0.7);
+  EXPECT_EQ(copy.belief().mean, original.belief().mean);
+  EXPECT_EQ(copy.belief().covariance, original.belief().covariance);
+  EXPECT_EQ(copy.mean(), copy.belief().mean);
 }
 
 /// x' = x / 2 + 25 x / (1 + x^2) + 8 cos(1.2 k) + w, z = x^2 / 20 + v, of variances 10 and 1: two answers to most readings. [Gordon1993, 4.1]

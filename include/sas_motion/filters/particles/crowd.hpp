@@ -38,8 +38,8 @@ struct ParticleUpdate {
   Verdict verdict = Verdict::Invalid;
 };
 
-/// What particle filters share: the particles in two buffers, their weights, threads and random numbers. A copy shares the threads: the two must not work at
-/// once.
+/// What particle filters share: the particles in two buffers, their weights, threads and random numbers. A copy has the same threads, so that not both may
+/// be at work at a time.
 template <class Particle>
 class Crowd {
  public:
@@ -59,12 +59,17 @@ class Crowd {
   const ParticleWeights& weights() const { return weights_; }
   const ParticleOptions& options() const { return options_; }
 
-  /// Does `work(i)` for every particle, some at a time.
+  /// Does `work(first, count)` for blocks of `together` particles; the last may have fewer.
+  template <class Work>
+  void forEachBlock(std::size_t together, const Work& work) {
+    team_->forEach((size() + together - 1) / together, [&](std::size_t task) { work(task * together, std::min(together, size() - task * together)); });
+  }
+
+  /// Does `work(i)` for every particle.
   template <class Work>
   void forEach(const Work& work) {
-    constexpr std::size_t kTogether = 25;
-    team_->forEach((size() + kTogether - 1) / kTogether, [&](std::size_t task) {
-      for (std::size_t i = task * kTogether; i < std::min(size(), (task + 1) * kTogether); ++i) work(i);
+    forEachBlock(24, [&](std::size_t first, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i) work(i);
     });
   }
 
@@ -144,21 +149,35 @@ class Crowd {
   std::uint32_t step_ = 0;
 };
 
-/// Mean and covariance of weighted states, without those that are not finite.
+/// Calls `add(i, weight)` for every particle that has weight and is finite. Their sum is what is returned.
+template <class Particles, class State, class Add>
+double overFinite(const Particles& crowd, const State& state, const Add& add) {
+  double sum = 0;
+  for (std::size_t i = 0; i < crowd.size(); ++i)
+    if (const double weight = crowd.weights().values()[i]; weight > 0 && state(crowd[i]).allFinite()) {
+      add(i, weight);
+      sum += weight;
+    }
+  return sum;
+}
+
+/// The mean of weighted states, without those that are not finite.
+template <int N, class Particles, class State>
+Vector<N> meanOf(const Particles& crowd, const State& state) {
+  Vector<N> mean = Vector<N>::Zero();
+  const double sum = overFinite(crowd, state, [&](std::size_t i, double weight) { mean += weight * state(crowd[i]); });
+  return mean / sum;
+}
+
+/// Likewise with their covariance.
 template <int N, class Particles, class State>
 Gaussian<N> momentsOf(const Particles& crowd, const State& state) {
-  Gaussian<N> moments{Vector<N>::Zero(), Matrix<N>::Zero()};
-  const auto overParticles = [&](const auto& add) {
-    for (std::size_t i = 0; i < crowd.size(); ++i)
-      if (crowd.weights().values()[i] > 0 && state(crowd[i]).allFinite()) add(crowd.weights().values()[i], state(crowd[i]));
-  };
-  double sum = 0;
-  overParticles([&](double weight, const Vector<N>& x) { sum += weight, moments.mean += weight * x; });
-  moments.mean /= sum;
-  overParticles([&](double weight, const Vector<N>& x) {
-    const Vector<N> offset = x - moments.mean;
-    moments.covariance.noalias() += weight / sum * offset * offset.transpose();
+  Gaussian<N> moments{meanOf<N>(crowd, state), Matrix<N>::Zero()};
+  const double sum = overFinite(crowd, state, [&](std::size_t i, double weight) {
+    const Vector<N> offset = state(crowd[i]) - moments.mean;
+    moments.covariance.noalias() += weight * offset * offset.transpose();
   });
+  moments.covariance /= sum;
   return moments;
 }
 

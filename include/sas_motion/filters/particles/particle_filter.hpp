@@ -38,7 +38,6 @@ class ParticleFilter {
   /// After reading z = h(x) + v, v ~ N(0, R).
   template <int M, class Function, class Difference = PlainDifference>
   ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) {
-    const auto state = [](const Vector<N>& x) -> const Vector<N>& { return x; };
     auto update = crowd_.template examine<M>(z, h, R, Matrix<M>(Matrix<M>::Zero()), difference, state);
     if (update.verdict == Verdict::Invalid) return update;
     const Matrix<M> R_root = crowd_.noiseRoot(R, update.weights);
@@ -53,12 +52,14 @@ class ParticleFilter {
     crowd_.forEach([&](std::size_t i) { crowd_[i] = function(crowd_[i]); });
   }
 
-  Gaussian<N> belief() const {
-    return momentsOf<N>(crowd_, [](const Vector<N>& x) -> const Vector<N>& { return x; });
-  }
+  Gaussian<N> belief() const { return momentsOf<N>(crowd_, state); }
+  /// That of belief(), at less cost.
+  Vector<N> mean() const { return meanOf<N>(crowd_, state); }
   const Crowd<Vector<N>>& particles() const { return crowd_; }
 
  private:
+  static const Vector<N>& state(const Vector<N>& x) { return x; }
+
   Crowd<Vector<N>> crowd_;
 };
 

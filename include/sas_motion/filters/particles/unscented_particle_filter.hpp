@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+
 #include "sas_motion/filters/particles/belief_form.hpp"
 #include "sas_motion/filters/particles/crowd.hpp"
 #include "sas_motion/filters/particles/gaussian_density.hpp"
@@ -21,8 +23,8 @@ struct UnscentedParticleOptions : ParticleOptions {
   double kept = 0.95;  ///< of its covariance by each copy of a Gaussian; the copies are drawn from the rest, so that the mixture's stays
 };
 
-/// A particle filter whose particles each run a sigma-point filter, `Filter`: with SigmaPointFilter and unscented points the UPF [Merwe2000], with
-/// SquareRootFilter and spherical simplex points the SS-SRUPF [Li2014].
+/// A particle filter whose particles each run a sigma-point filter; `Filter` does so for a block of them. With SigmaPointFilter OneByOne and unscented
+/// points it is the UPF [Merwe2000], with SimplexBlocks, or SimplexFilter OneByOne, the SS-SRUPF [Li2014].
 ///
 /// A step allocates nothing. Its results depend on the seed, not on the number of threads. A single particle is its filter alone.
 template <int N, class Filter>
@@ -61,27 +63,31 @@ class UnscentedParticleFilter {
   template <class Function>
   void predict(const Function& f, const Matrix<N>& Q_root) {
     addSquares<N, N>(noise_root_, Q_root);
-    crowd_.forEach([&](std::size_t i) {
-      Particle& particle = crowd_[i];
-      if (weighting_ != Weighting::Mixture) particle.moved = f(particle.moved);
+    crowd_.forEachBlock(Filter::kTogether, [&](std::size_t first, std::size_t count) {
+      if (weighting_ != Weighting::Mixture)
+        for (std::size_t i = first; i < first + count; ++i) crowd_[i].moved = f(crowd_[i].moved);
       if (weighting_ == Weighting::OptimalProposal)
-        particle.belief = Form::of(particle.moved, noise_root_);
-      else if (const auto prior = filter_.predict(particle.belief, f, Form::noise(Q_root)))
-        particle.belief = *prior;
+        for (std::size_t i = first; i < first + count; ++i) crowd_[i].belief = Form::of(crowd_[i].moved, noise_root_);
       else
-        crowd_.weights().multiply(i, std::numeric_limits<double>::quiet_NaN());
+        filter_.predict(static_cast<int>(count), beliefsFrom(first), f, Q_root,
+                        [&](int k) { crowd_.weights().multiply(first + static_cast<std::size_t>(k), std::numeric_limits<double>::quiet_NaN()); });
     });
   }
 
   /// After reading z = h(x) + v, v ~ N(0, R).
   template <int M, class Function, class Difference = PlainDifference>
   ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) {
-    const auto mean = [](const Particle& particle) -> const Vector<N>& { return particle.belief.mean; };
-    auto update = crowd_.template examine<M>(z, h, R, ownCovariance<M>(h, difference), difference, mean);
+    auto update = crowd_.template examine<M>(z, h, R, ownCovariance<M>(h, difference), difference, state);
     if (update.verdict == Verdict::Invalid) return update;
     const Matrix<M> R_root = crowd_.noiseRoot(R, update.weights);
     crowd_.nextStep();
-    crowd_.forEach([&](std::size_t i) { crowd_.weights().multiply(i, correct<M>(i, z, h, R_root, difference)); });
+    crowd_.forEachBlock(Filter::kTogether, [&](std::size_t first, std::size_t count) {
+      filter_.template update<M>(static_cast<int>(count), beliefsFrom(first), z, h, R_root, difference, [&](int k, double log_likelihood) {
+        const std::size_t i = first + static_cast<std::size_t>(k);
+        const bool draws = weighting_ != Weighting::Mixture && std::isfinite(log_likelihood);
+        crowd_.weights().multiply(i, draws ? draw<M>(i, z, h, R_root, difference) : log_likelihood);
+      });
+    });
     crowd_.weigh(update, [&](Particle& particle, std::ptrdiff_t copies, std::size_t i) {
       if (weighting_ == Weighting::Mixture) split(particle, copies, i);
     });
@@ -96,36 +102,50 @@ class UnscentedParticleFilter {
   }
 
   Gaussian<N> belief() const {
-    auto moments = momentsOf<N>(crowd_, [](const Particle& particle) -> const Vector<N>& { return particle.belief.mean; });
-    if (weighting_ == Weighting::Mixture)
-      for (std::size_t i = 0; i < crowd_.size(); ++i)
-        if (const double weight = crowd_.weights().values()[i]; weight > 0 && crowd_[i].belief.mean.allFinite())
-          moments.covariance.noalias() += weight * gaussian(crowd_[i].belief).covariance;
+    if (weighting_ != Weighting::Mixture) return momentsOf<N>(crowd_, state);
+    Gaussian<N> moments{mean(), Matrix<N>::Zero()};
+    std::array<const Belief*, kGathered> beliefs;
+    std::array<double, kGathered> weights;
+    int count = 0;
+    const auto addGathered = [&] {
+      filter_.addMoments(
+          count, [&](int k) -> const Belief& { return *beliefs[static_cast<std::size_t>(k)]; }, [&](int k) { return weights[static_cast<std::size_t>(k)]; },
+          moments.mean, moments.covariance);
+      count = 0;
+    };
+    const double sum = overFinite(crowd_, state, [&](std::size_t i, double weight) {
+      beliefs[static_cast<std::size_t>(count)] = &crowd_[i].belief;
+      weights[static_cast<std::size_t>(count)] = weight;
+      if (++count == kGathered) addGathered();
+    });
+    if (count > 0) addGathered();
+    moments.covariance /= sum;
     return moments;
   }
+  /// That of belief(), at less cost.
+  Vector<N> mean() const { return meanOf<N>(crowd_, state); }
   const Crowd<Particle>& particles() const { return crowd_; }
 
  private:
   using Form = BeliefForm<Belief>;
+  static constexpr int kGathered = 64;
+
+  static const Vector<N>& state(const Particle& particle) { return particle.belief.mean; }
+  auto beliefsFrom(std::size_t first) {
+    return [this, first](int k) -> Belief& { return crowd_[first + static_cast<std::size_t>(k)].belief; };
+  }
 
   /// What the heaviest particle's covariance becomes in z: the particles' are much alike.
   template <int M, class Function, class Difference>
   Matrix<M> ownCovariance(const Function& h, const Difference& difference) const {
-    const auto image = filter_.template project<M>(crowd_[crowd_.weights().heaviest()].belief, h, difference);
-    return image ? filter_.template secondMoment<M, M>(image->deviations, image->deviations) : Matrix<M>(Matrix<M>::Zero());
+    const auto image = filter_.one().template project<M>(crowd_[crowd_.weights().heaviest()].belief, h, difference);
+    return image ? filter_.one().template secondMoment<M, M>(image->deviations, image->deviations) : Matrix<M>(Matrix<M>::Zero());
   }
 
-  /// Lets a particle's filter read z, draws where the weighting says so, and returns the logarithm of what its weight is multiplied by.
+  /// Draws a particle from what its filter says, and returns the logarithm of what its weight is multiplied by.
   template <int M, class Function, class Difference>
-  double correct(std::size_t i, const Vector<M>& z, const Function& h, const Matrix<M>& R_root, const Difference& difference) {
+  double draw(std::size_t i, const Vector<M>& z, const Function& h, const Matrix<M>& R_root, const Difference& difference) {
     Particle& particle = crowd_[i];
-    const auto result = filter_.update(particle.belief, z, h, Form::noise(R_root), difference);
-    if (result.verdict == Verdict::Invalid) return std::numeric_limits<double>::quiet_NaN();
-    particle.belief = result.belief;
-    if (weighting_ == Weighting::Mixture) {
-      const auto S_root = choleskyLower<M>(result.S);
-      return S_root ? logDensity<M>(result.innovation, *S_root) : std::numeric_limits<double>::quiet_NaN();
-    }
     const auto root = Form::root(particle.belief);
     if (!root) return std::numeric_limits<double>::quiet_NaN();
     const Vector<N> step = *root * crowd_.template gaussians<N>(i), x = particle.belief.mean + step;
@@ -152,5 +172,8 @@ class UnscentedParticleFilter {
   Crowd<Particle> crowd_;
   Matrix<N> noise_root_ = Matrix<N>::Zero();  // of all since the last update
 };
+
+template <class Filter>
+UnscentedParticleFilter(const Filter&, const UnscentedParticleOptions&) -> UnscentedParticleFilter<decltype(Filter::Belief::mean)::RowsAtCompileTime, Filter>;
 
 }  // namespace sas_motion
