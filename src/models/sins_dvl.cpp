@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sas_motion/math/factorization.hpp"
+#include "sas_motion/models/ins_gps_dvl.hpp"
 #include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
 
@@ -38,6 +39,24 @@ Vector<3> perMetre(const NavigationState& state) {
 }
 
 }  // namespace
+
+ins::Parameters inSmallAngles(const Parameters& p) {
+  ins::Parameters q;
+  q.gyro_constant = p.gyro_constant;
+  q.gyro_markov = 1e-3 * p.gyro_constant;  // there is none, but its model needs one
+  q.angle_random_walk = p.angle_random_walk;
+  q.accelerometer_constant = p.accelerometer_constant;
+  q.velocity_random_walk = p.velocity_random_walk;
+  q.dvl_drift = ins::DvlDrift{p.dvl_offset, p.dvl_offset_time, p.dvl_angle, p.dvl_angle_time};
+  q.dvl_white = p.dvl_white;
+  q.dvl_scale = p.dvl_scale;
+  q.depth_white = p.depth_white;
+  q.start_position = p.start_position;
+  q.start_velocity = p.start_velocity;
+  q.start_tilt = p.start_tilt;
+  q.start_heading = p.start_heading;
+  return q;
+}
 
 Matrix<4, 3> leftTurn(const Eigen::Quaterniond& q) {
   Matrix<4, 3> Y;

@@ -85,7 +85,7 @@ std::optional<Aiding> readingOf(const geometry_msgs::TwistWithCovarianceStamped&
   Aiding reading = begin(twist.header.stamp, Sensor::Dvl, mount, settings);
   const Matrix<3> C_body_dvl = bodyFromRosBody() * mount.T_base_sensor.linear();
   reading.velocity_body = C_body_dvl * velocity;
-  const Vector<3> white = Vector<3>::Constant(settings.session.config.parameters.dvl_white);
+  const Vector<3> white = settings.session.config.parameters.dvl_white;
   reading.variance = C_body_dvl.cwiseAbs2() * believed(stated, white, settings.of(Sensor::Dvl));
   return reading;
 }

@@ -136,8 +136,10 @@ void InsRecorder::fix(const Aiding& reading, std_msgs::Header header) {
 void InsRecorder::twist(const Aiding& reading, std_msgs::Header header) {
   geometry_msgs::TwistWithCovarianceStamped message;
   message.header = header;
-  set(message.twist.twist.linear, T_base_dvl_.linear().transpose() * (bodyFromRosBody().transpose() * reading.velocity_body));
-  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i < 3 ? squared(scenario_.parameters.dvl_white) : kUnstated;
+  const Matrix<3> C_dvl_body = T_base_dvl_.linear().transpose() * bodyFromRosBody().transpose();
+  set(message.twist.twist.linear, C_dvl_body * reading.velocity_body);
+  const Vector<3> variance = C_dvl_body.cwiseAbs2() * scenario_.parameters.dvl_white.cwiseAbs2();
+  for (int i = 0; i < 6; ++i) message.twist.covariance[static_cast<std::size_t>(7 * i)] = i < 3 ? variance(i) : kUnstated;
   bag_.write(settings_.twist_topic, header.stamp, message);
 }
 
