@@ -38,18 +38,25 @@ class Follower {
   void run(ins::Estimator& estimator, const ins::Recording& recording) {
     estimator.start(recording.start, 0);
     auto next = recording.aiding.begin();
-    auto labelled = next;
     ins::Output output;
+    auto labelled = next;
+    const auto take = [&](ins::Output& said) {
+      for (const auto& audit : said.audits) note(audit, *labelled++);
+      for (const auto& solution : said.solutions) note(solution);
+      said.clear();
+    };
     double seconds = 0;
     for (const auto& reading : recording.imu) {
       const double begin = cpuSeconds();
       for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator.process(next->reading, output);
       estimator.process(reading, output);
       seconds += cpuSeconds() - begin;
-      for (const auto& audit : output.audits) note(audit, *labelled++);
-      for (const auto& solution : output.solutions) note(solution);
-      output.clear();
+      take(output);
     }
+    const double begin = cpuSeconds();
+    estimator.finish(output);
+    seconds += cpuSeconds() - begin;
+    take(output);
     microseconds_ = 1e6 * seconds / static_cast<double>(std::max<std::size_t>(1, recording.aiding.size()));
   }
 
@@ -90,7 +97,7 @@ class Follower {
 
 class SinsSystem final : public System {
  public:
-  SinsSystem(YamlSection& campaign, const std::string& folder) {
+  SinsSystem(YamlSection& campaign, const std::string& folder, EstimatorFactory make) : make_(std::move(make)) {
     std::string file;
     campaign.text("scenario", file);
     if (file.empty()) campaign.fail("scenario", "is missing; name a scenario file");
@@ -108,7 +115,7 @@ class SinsSystem final : public System {
     campaign.texts("estimators", estimators);
     if (estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
     for (const auto& name : estimators)
-      if (!findFilter(name) && !smallAngle(name)) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
+      if (!make_(name, {})) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
     for (auto& item : campaign.list("laws")) readLaw(item, scenario);
     if (laws.empty()) campaign.fail("laws", "is missing; list at least one");
   }
@@ -128,21 +135,12 @@ class SinsSystem final : public System {
   Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override { return sinsBound(cases_[law].scenario, skip, seeds); }
 
  private:
-  /// The fusion by small angles, which stands beside.
-  static bool smallAngle(const std::string& name) { return name == "ckf27" || name == "robust_ckf27"; }
-
   std::unique_ptr<ins::Estimator> make(const std::string& name, const Case& one, std::uint64_t seed) const {
     Mechanisation::Options imu;
     imu.period = 1 / one.scenario.imu_rate;
-    if (smallAngle(name)) {
-      ins::Config config;
-      config.parameters = one.scored.parameters;
-      config.imu = imu;
-      return ins::makeEstimator(name, config);
-    }
     Config config{one.scenario.parameters, imu, particles_, accelerometer_bias_};
     config.particles.seed = seed;
-    return makeEstimator(name, config);
+    return make_(name, config);
   }
 
   template <class Visit>
@@ -169,6 +167,7 @@ class SinsSystem final : public System {
     cases_.push_back({scenario, withoutGps(scenario)});
   }
 
+  EstimatorFactory make_;
   UnscentedParticleOptions particles_;
   bool accelerometer_bias_ = true;
   std::vector<Case> cases_;  // by law
@@ -176,6 +175,8 @@ class SinsSystem final : public System {
 
 }  // namespace
 
-std::unique_ptr<System> makeSinsSystem(YamlSection& campaign, const std::string& folder) { return std::make_unique<SinsSystem>(campaign, folder); }
+std::unique_ptr<System> makeSinsSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make) {
+  return std::make_unique<SinsSystem>(campaign, folder, make);
+}
 
 }  // namespace sas_motion

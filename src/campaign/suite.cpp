@@ -36,7 +36,7 @@ std::string whatRunsDependOn(const std::string& file) {
 }  // namespace
 
 Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters,
-                      const ins::EstimatorFactory& make_ins) {
+                      const ins::EstimatorFactory& make_ins, const sins::EstimatorFactory& make_sins) {
   auto yaml = YamlSection::fromFile(file);
   const std::string folder = std::filesystem::path(file).parent_path();
   Suite suite;
@@ -64,7 +64,7 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
     else if (kind == "imaging")
       suite.campaigns.push_back(makeImagingSystem(item, folder, make_ins));
     else if (kind == "sins_dvl")
-      suite.campaigns.push_back(makeSinsSystem(item, folder));
+      suite.campaigns.push_back(makeSinsSystem(item, folder, make_sins));
     else
       item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl, ins_gps_dvl, imaging or sins_dvl", kind));
     suite.campaigns.back()->title = name;

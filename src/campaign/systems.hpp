@@ -6,7 +6,7 @@
 #include "sas_motion/campaign/system.hpp"
 #include "sas_motion/campaign/towfish_campaign.hpp"
 #include "sas_motion/evaluation/bounds.hpp"
-#include "sas_motion/pipeline/ins_estimator.hpp"
+#include "sas_motion/pipeline/sins_estimator.hpp"
 #include "sas_motion/simulation/ins_scenario.hpp"
 #include "sas_motion/simulation/sins_scenario.hpp"
 
@@ -19,7 +19,7 @@ std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string&
 std::unique_ptr<System> makeInsSystem(YamlSection& campaign, const std::string& folder, const ins::EstimatorFactory& make);
 /// Fails where the build has no imaging.
 std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string& folder, const ins::EstimatorFactory& make);
-std::unique_ptr<System> makeSinsSystem(YamlSection& campaign, const std::string& folder);
+std::unique_ptr<System> makeSinsSystem(YamlSection& campaign, const std::string& folder, const sins::EstimatorFactory& make);
 
 /// The bound of each group of states, by its name; empty where one is not known at all.
 template <int N>

@@ -28,7 +28,7 @@ void readAlignment(YamlSection yaml, SessionOptions& session) {
 void shareWhite(Settings& settings) {
   const Parameters& p = settings.session.config.parameters;
   settings.of(Sensor::Gps).white = p.gps_white;
-  settings.of(Sensor::Dvl).white.setConstant(p.dvl_white);
+  settings.of(Sensor::Dvl).white = p.dvl_white;
   settings.of(Sensor::Depth).white.setConstant(p.depth_white);
 }
 
@@ -91,9 +91,12 @@ void readGpsErrors(YamlSection& yaml, Parameters& p) {
 void readDvlErrors(YamlSection& yaml, Parameters& p) {
   yaml.number("markov", p.dvl_markov, {kTiny, 10});
   yaml.number("time", p.dvl_time, {1, 1e7});
-  yaml.number("white", p.dvl_white, {kTiny, 10});
+  double white = p.dvl_white.x();
+  yaml.number("white", white, {kTiny, 10});
+  p.dvl_white.setConstant(white);
   readScaled(yaml, "scale_percent", p.dvl_scale, 0.01, {0, 20});
   yaml.angle("misalignment_deg", p.dvl_misalignment, {0, 10});
+  yaml.number("lever_sigma", p.dvl_lever_sigma, {0, 10});
 }
 
 void readDepthErrors(YamlSection& yaml, Parameters& p) { yaml.number("white", p.depth_white, {kTiny, 1e3}); }

@@ -18,6 +18,11 @@ namespace {
 
 double markovDensity(double sigma, double time) { return 2 * sigma * sigma / time; }
 
+constexpr double kLeastDvlError = 1e-6;  // of a DVL that drifts, upwards [m/s]
+
+/// By which a drift angle makes a velocity error: that to starboard from forward, and the other way round; body.
+Matrix<3> driftTurn() { return -skew(Vector<3>::UnitZ()); }
+
 /// Velocity over the ground of a place on the body against the INS; body.
 Vector<3> leverVelocity(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& lever_body) {
   return rateOverGround(ins, rate_body).cross(lever_body);
@@ -71,7 +76,12 @@ Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_
   return F;
 }
 
-ErrorModel::ErrorModel(const Parameters& parameters, const NavigationState& start) : parameters_(parameters) {
+ErrorModel::ErrorModel(const Parameters& parameters, const NavigationState& start)
+    : parameters_(parameters), dvl_sigma_(Vector<3>::Constant(parameters.dvl_markov)), dvl_time_(Vector<3>::Constant(parameters.dvl_time)) {
+  if (const auto& drift = parameters.dvl_drift) {
+    dvl_sigma_ << drift->angle, drift->offset, kLeastDvlError;
+    dvl_time_ << drift->angle_time, drift->offset_time, drift->offset_time;
+  }
   const auto [M, N] = earth::radii(start.latitude, start.height);
   const Vector<3> position(1 / (N * std::cos(start.latitude)), 1 / M, 1), ones = Vector<3>::Ones();
   unit_ << ones, position, kMilliradian * ones, kDrift * ones, kDrift * ones, kBias * ones, position, ones, position;
@@ -82,8 +92,8 @@ ErrorModel::ErrorModel(const Parameters& parameters, const NavigationState& star
   density_.segment<3>(kAttitude).setConstant(squared(p.angle_random_walk / kMilliradian));
   density_.segment<3>(kGyroMarkov).setConstant(markovDensity(p.gyro_markov / kDrift, p.gyro_time));
   for (int axis = 0; axis < 3; ++axis) density_(kGpsPosition + axis) = markovDensity(p.gps_markov(axis), p.gps_time);
-  density_.segment<3>(kDvlVelocity).setConstant(markovDensity(p.dvl_markov, p.dvl_time));
-  density_.segment<3>(kDvlPosition).setConstant(squared(p.dvl_white) / p.dvl_rate);  // white readings, each held for 1 / rate
+  for (int axis = 0; axis < 3; ++axis) density_(kDvlVelocity + axis) = markovDensity(dvl_sigma_(axis), dvl_time_(axis));
+  density_.segment<3>(kDvlPosition).setConstant(p.dvl_white.cwiseAbs2().mean() / p.dvl_rate);  // white readings, each held for 1 / rate
 }
 
 ErrorMatrix ErrorModel::dynamics(const Motion& motion) const {
@@ -95,10 +105,10 @@ ErrorMatrix ErrorModel::dynamics(const Motion& motion) const {
   F.block<3, 3>(kAttitude, kGyroConstant) = F.block<3, 3>(kAttitude, kGyroMarkov) = -C;
   F.block<3, 3>(kGyroMarkov, kGyroMarkov) = -I / parameters_.gyro_time;
   F.block<3, 3>(kGpsPosition, kGpsPosition) = -I / parameters_.gps_time;  // (C.3)
-  F.block<3, 3>(kDvlVelocity, kDvlVelocity) = -I / parameters_.dvl_time;  // (C.4)
+  F.block<3, 3>(kDvlVelocity, kDvlVelocity) = -Matrix<3>(dvl_time_.cwiseInverse().asDiagonal());  // (C.4)
   // Dead reckoning turns the reading by the computed attitude: C' v = C v + v x phi.
   const auto scale = unit_.segment<3>(kPosition).asDiagonal();
-  F.block<3, 3>(kDvlPosition, kDvlVelocity) = scale * C;
+  F.block<3, 3>(kDvlPosition, kDvlVelocity) = scale * C * dvlErrorByState(C.transpose() * motion.state.velocity_nav);
   F.block<3, 3>(kDvlPosition, kAttitude) = scale * skew(motion.state.velocity_nav);
   return unit_.cwiseInverse().asDiagonal() * F * unit_.asDiagonal();
 }
@@ -124,7 +134,7 @@ Gaussian<kStates> ErrorModel::start() const {
   const Vector<3> ones = Vector<3>::Ones(), attitude(p.start_tilt, p.start_tilt, p.start_heading);
   Errors sigma;
   sigma << p.start_velocity * ones, p.start_position, attitude / kMilliradian, p.gyro_constant / kDrift * ones, p.gyro_markov / kDrift * ones,
-      p.accelerometer_constant / kBias * ones, p.gps_markov, p.dvl_markov * ones, p.start_position;
+      p.accelerometer_constant / kBias * ones, p.gps_markov, dvl_sigma_, p.start_position;
   Gaussian<kStates> belief;
   belief.covariance = sigma.cwiseAbs2().asDiagonal();
   // Dead reckoning starts from the position of the INS.
@@ -158,10 +168,21 @@ LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const 
   z.H.setZero();
   z.H.block<3, 3>(0, kVelocity) = C_body_nav;
   z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * skew(ins.velocity_nav);
-  z.H.block<3, 3>(0, kDvlVelocity) = -Matrix<3>::Identity();
-  z.R = parameters_.dvl_white * parameters_.dvl_white * Matrix<3>::Identity();
+  z.H.block<3, 3>(0, kDvlVelocity) = -dvlErrorByState(C_body_nav * ins.velocity_nav);
+  z.R = parameters_.dvl_white.cwiseAbs2().asDiagonal();
   z.innovation = C_body_nav * ins.velocity_nav - velocityOfIns(ins, rate_body, velocity_body) - z.H * mean;
+  if (parameters_.dvl_drift) z.H.leftCols<9>() += mean(kDvlVelocity) * driftTurn() * z.H.leftCols<9>().eval();
   return z;
+}
+
+Matrix<3> ErrorModel::dvlErrorByState(const Vector<3>& velocity_body) const {
+  Matrix<3> E = Matrix<3>::Identity();
+  if (parameters_.dvl_drift) E.col(0) = driftTurn() * velocity_body;
+  return E;
+}
+
+Vector<3> ErrorModel::dvlError(const Vector<3>& velocity_body, const Errors& mean) const {
+  return dvlErrorByState(velocity_body) * mean.segment<3>(kDvlVelocity);
 }
 
 LinearMeasurement<kStates, 1> ErrorModel::depth(const NavigationState& ins, double height, const Errors& mean) const {

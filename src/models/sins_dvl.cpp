@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sas_motion/math/factorization.hpp"
+#include "sas_motion/models/ins_gps_dvl.hpp"
 #include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
 
@@ -46,6 +47,26 @@ Matrix<4> ofRotation(const Eigen::Quaterniond& q, const Vector<3>& variance) {
 }
 
 }  // namespace
+
+ins::Parameters inSmallAngles(const Parameters& p) {
+  ins::Parameters q;
+  q.gyro_constant = p.gyro_constant;
+  q.gyro_markov = 1e-3 * p.gyro_constant;  // there is none, but its model needs one
+  q.angle_random_walk = p.angle_random_walk;
+  q.accelerometer_constant = p.accelerometer_constant;
+  q.velocity_random_walk = p.velocity_random_walk;
+  q.dvl_drift = ins::DvlDrift{p.dvl_offset, p.dvl_offset_time, p.dvl_angle, p.dvl_angle_time};
+  q.dvl_white = p.dvl_white;
+  q.dvl_scale = p.dvl_scale;
+  q.depth_white = p.depth_white;
+  q.dvl_lever_body = p.dvl_lever_body;
+  q.depth_lever_body = p.depth_lever_body;
+  q.start_position = p.start_position;
+  q.start_velocity = p.start_velocity;
+  q.start_tilt = p.start_tilt;
+  q.start_heading = p.start_heading;
+  return q;
+}
 
 Matrix<4, 3> leftTurn(const Eigen::Quaterniond& q) {
   Matrix<4, 3> Y;
@@ -191,10 +212,18 @@ Gaussian<N> startBelief(const Parameters& p, const NavigationState& ins) {
   return belief;
 }
 
-#define SAS_MOTION_INSTANTIATE_SINS(N) \
-  template class Motion<N>;            \
-  template class View<N>;              \
-  template Gaussian<N> startBelief<N>(const Parameters&, const NavigationState&);
+template <int N>
+Matrix<N> turnRoot(const NavigationState& ins, const Vector<3>& variance) {
+  Matrix<N> root = Matrix<N>::Zero();
+  root.template block<4, 3>(kQuaternion, kQuaternion) = 0.5 * leftTurn(ins.q_nav_body) * variance.cwiseSqrt().asDiagonal();
+  return root;
+}
+
+#define SAS_MOTION_INSTANTIATE_SINS(N)                                            \
+  template class Motion<N>;                                                       \
+  template class View<N>;                                                         \
+  template Gaussian<N> startBelief<N>(const Parameters&, const NavigationState&); \
+  template Matrix<N> turnRoot<N>(const NavigationState&, const Vector<3>&);
 SAS_MOTION_INSTANTIATE_SINS(kPaperStates)
 SAS_MOTION_INSTANTIATE_SINS(kStates)
 #undef SAS_MOTION_INSTANTIATE_SINS

@@ -134,7 +134,7 @@ NavigationState Navigator<Filter>::dvl() const {
   NavigationState state = reckoned_;
   displace(state, -belief_.mean.template segment<3>(kDvlPosition));
   state.q_nav_body = fused().q_nav_body;
-  if (velocity_body_) state.velocity_nav = state.q_nav_body * (*velocity_body_ - belief_.mean.template segment<3>(kDvlVelocity));
+  if (velocity_body_) state.velocity_nav = state.q_nav_body * (*velocity_body_ - model_.dvlError(*velocity_body_, belief_.mean));
   return state;
 }
 

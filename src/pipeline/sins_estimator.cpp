@@ -43,9 +43,17 @@ Config startedAt(Config config, const ins::Parameters& found) {
 }
 
 std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config) {
+  if (name == "ckf27" || name == "robust_ckf27") return ins::makeEstimator(name, inSmallAngles(config));
   const NamedFilter* found = findFilter(name);
   if (!found) return nullptr;
   return config.accelerometer_bias ? makeNavigator<kStates>(*found, config) : makeNavigator<kPaperStates>(*found, config);
+}
+
+ins::Config inSmallAngles(const Config& config) {
+  ins::Config other;
+  other.parameters = inSmallAngles(config.parameters);
+  other.imu = config.imu;
+  return other;
 }
 
 }  // namespace sas_motion::sins

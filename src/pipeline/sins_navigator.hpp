@@ -115,12 +115,23 @@ class Navigator final : public ins::Estimator {
   void predict() {
     if (!(felt_.duration() > 0)) return;
     const Motion<N> motion(config_.parameters, predicted_from_, felt_);
+    const Vector<3> turned = gap_variance_.tail<3>();
+    gap_variance_.tail<3>() = turned.cwiseMin(kNearlyLinear * kNearlyLinear);
     ownFilter().predict(motion, motion.noiseRoot(gap_variance_));
     mean_ = motion(mean_);
     predicted_from_ = ins_->state();
+    if (turned != gap_variance_.tail<3>()) scatter(turned - gap_variance_.tail<3>());
     felt_ = {};
     gap_variance_.setZero();
     covariance_.reset();
+  }
+
+  /// What one Gaussian would be too wide for is shared out among all.
+  void scatter(const Vector<3>& turned) {
+    Filter& filter = ownFilter();
+    filter.scatter(turnRoot<N>(predicted_from_, turned));
+    filter.replace([&](const Vector<N>& x) { return View<N>(predicted_from_).constrained(x); });
+    mean_ = filter.mean();
   }
 
   NavigationState fused() const { return View<N>(ins_->state()).corrected(meanNow()); }

@@ -4,6 +4,7 @@
 
 #include "sas_motion/config/sins_config.hpp"
 #include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
+#include "sas_motion/smoothers/factor_graph/sins_estimators.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -34,10 +35,9 @@ void InsSettings::readEstimation(YamlSection& yaml) {
   sins::readSettings(yaml, settings);
   estimation = settings.shared;
   make = [config = settings.config](const std::string& name, const ins::Config& found) {
-    return sins::makeEstimator(name, startedAt(config, found.parameters));
+    return sins::makeAnyEstimator(name, startedAt(config, found.parameters));
   };
-  estimators.clear();
-  for (const auto& named : sins::namedFilters()) estimators.push_back(named.name);
+  estimators = sins::anyEstimatorNames();
   preferred = "ss_srupf";
   velocity_topic = "gnss/velocity";
 }

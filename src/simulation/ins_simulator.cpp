@@ -43,10 +43,16 @@ NavigationState wrongStart(const NavigationState& truth, const Parameters& p, st
 }
 
 /// How this run's DVL is scaled and mounted.
-Matrix<3> drawnDistortion(const Parameters& p, std::uint64_t seed) {
+struct DvlMounting {
+  Matrix<3> distortion;
+  Vector<3> lever_body;  ///< from the INS [m]
+};
+
+DvlMounting drawnMounting(const Parameters& p, std::uint64_t seed) {
   Random random(seed, kDvlMountingStream);
   const double scale = p.dvl_scale * random.gaussian();
-  return dvlDistortion(scale, p.dvl_misalignment * gaussians(random));
+  const Matrix<3> distortion = dvlDistortion(scale, p.dvl_misalignment * gaussians(random));
+  return {distortion, p.dvl_lever_body + p.dvl_lever_sigma * gaussians(random)};
 }
 
 /// Reads the truth with a sensor's coloured errors.
@@ -58,7 +64,7 @@ class AidingModel {
         trajectory_(trajectory),
         period_(1 / scenario.sensor(sensor).rate),
         sensor_(sensor),
-        distortion_(drawnDistortion(scenario.parameters, seed)),
+        mounting_(drawnMounting(scenario.parameters, seed)),
         random_(seed, kMarkovStream + static_cast<std::uint64_t>(sensor)),
         markov_(random_) {}
 
@@ -66,7 +72,7 @@ class AidingModel {
     const Parameters& p = parameters_;
     switch (sensor_) {
       case Sensor::Gps: return gps(truth, p.gps_markov.cwiseProduct(markov_.step(period_, p.gps_time, random_)) + p.gps_white.cwiseProduct(noise));
-      case Sensor::Dvl: return dvl(truth, p.dvl_markov * markov_.step(period_, p.dvl_time, random_) + p.dvl_white * noise);
+      case Sensor::Dvl: return dvl(truth, p.dvl_markov * markov_.step(period_, p.dvl_time, random_) + p.dvl_white.cwiseProduct(noise));
       case Sensor::Depth: return depth(truth, p.depth_white * noise(0));
       case Sensor::Dpc: return dpc(truth, time, {dpc_.white_along * noise(0), dpc_.white_sight * noise(1)});
     }
@@ -84,7 +90,7 @@ class AidingModel {
     const auto& state = truth.state;
     const Vector<3> rate = truth.rateBody() - state.q_nav_body.conjugate() * earth::rotationRate(state.latitude);
     Aiding reading;
-    reading.velocity_body = distortion_ * (state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(parameters_.dvl_lever_body)) + error;
+    reading.velocity_body = mounting_.distortion * (state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(mounting_.lever_body)) + error;
     return reading;
   }
   /// From a ping half an interval earlier to one half an interval later; on the axes between.
@@ -114,7 +120,7 @@ class AidingModel {
   const Trajectory& trajectory_;
   double period_;  // of the readings [s]
   Sensor sensor_;
-  Matrix<3> distortion_;  // of the DVL
+  DvlMounting mounting_;
   Random random_;
   Markov markov_;
 };

@@ -76,7 +76,6 @@ void readAlong(const ins::Trajectory& trajectory, double duration, const ins::Sc
 }  // namespace
 
 ins::Scenario withoutGps(const Scenario& scenario) {
-  const Parameters& p = scenario.parameters;
   ins::Scenario other;
   other.name = scenario.name;
   other.duration = scenario.duration;
@@ -84,23 +83,8 @@ ins::Scenario withoutGps(const Scenario& scenario) {
   other.imu_rate = scenario.imu_rate;
   other.sensor(ins::Sensor::Dvl) = scenario.dvl;
   other.sensor(ins::Sensor::Depth) = scenario.depth;
-  ins::Parameters& q = other.parameters;
-  q.gyro_constant = p.gyro_constant;
-  q.gyro_markov = 1e-3 * p.gyro_constant;  // there is none, but its model needs one
-  q.angle_random_walk = p.angle_random_walk;
-  q.accelerometer_constant = p.accelerometer_constant;
-  q.velocity_random_walk = p.velocity_random_walk;
-  q.dvl_markov = std::hypot(p.dvl_offset, scenario.track.speed * std::hypot(p.dvl_scale, p.dvl_angle));  // of any axis
-  q.dvl_time = std::sqrt(p.dvl_offset_time * p.dvl_angle_time);
-  q.dvl_white = p.dvl_white.x();
-  q.dvl_rate = scenario.dvl.rate;
-  q.depth_white = p.depth_white;
-  q.dvl_lever_body = p.dvl_lever_body;
-  q.depth_lever_body = p.depth_lever_body;
-  q.start_position = p.start_position;
-  q.start_velocity = p.start_velocity;
-  q.start_tilt = p.start_tilt;
-  q.start_heading = p.start_heading;
+  other.parameters = inSmallAngles(scenario.parameters);
+  other.parameters.dvl_rate = scenario.dvl.rate;
   return other;
 }
 

@@ -171,8 +171,8 @@ void InsRecorder::twist(const Aiding& reading, std_msgs::Header header) {
   message.header = header;
   const Matrix<3> C_dvl_body = T_base_dvl_.linear().transpose() * bodyFromRosBody().transpose();
   set(message.twist.twist.linear, C_dvl_body * reading.velocity_body);
-  const Vector<3> white = Vector<3>::Constant(squared(scenario_.parameters.dvl_white)), variance = C_dvl_body.cwiseAbs2() * reading.variance.value_or(white);
-  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i < 3 ? variance(static_cast<Eigen::Index>(i)) : kUnstated;
+  const Vector<3> variance = C_dvl_body.cwiseAbs2() * reading.variance.value_or(scenario_.parameters.dvl_white.cwiseAbs2());
+  for (int i = 0; i < 6; ++i) message.twist.covariance[static_cast<std::size_t>(7 * i)] = i < 3 ? variance(i) : kUnstated;
   bag_.write(settings_.twist_topic, header.stamp, message);
 }
 

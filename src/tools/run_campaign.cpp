@@ -18,6 +18,7 @@
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/smoothers/factor_graph/estimators.hpp"
 #include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
+#include "sas_motion/smoothers/factor_graph/sins_estimators.hpp"
 #include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
 
 namespace {
@@ -168,7 +169,7 @@ void writeImages(const Suite& suite, const std::string& folder) {
 }
 
 void run(const Options& options) {
-  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter, ins::makeAnyEstimator);
+  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter, ins::makeAnyEstimator, sins::makeAnyEstimator);
   if (options.runs > 0) suite.runs = options.runs;
   if (options.plan) fmt::print("{}\n", planOf(suite).dump());
   if (!options.tasks.empty()) printTasks(suite, options);

@@ -113,7 +113,7 @@ TEST(InsConversions, ADvlWithoutBottomLockHasNoReading) {
   EXPECT_FALSE(readingOf(twistOf(-32.768, -32.768, -32.768, 1e-4), mount, settings));
   EXPECT_FALSE(readingOf(twistOf(2, 0, 0, -1), mount, settings));
   EXPECT_FALSE(readingOf(twistOf(2, 0, 0, 1e4), mount, settings));
-  const double white = settings.session.config.parameters.dvl_white;
+  const double white = settings.session.config.parameters.dvl_white.x();
   for (const double unstated : {0.0, kNaN})  // the velocity counts, and its noise is that of the settings
     EXPECT_NEAR((*readingOf(twistOf(2, 0, 0, unstated), mount, settings)->variance)(0), white * white, 1e-18);
   settings.of(ins::Sensor::Dvl).floor = 0.5;

@@ -39,7 +39,7 @@ TEST(InsConfig, TheFileHoldsTheDefaults) {
                             p.gps_time,
                             p.dvl_markov,
                             p.dvl_time,
-                            p.dvl_white,
+                            p.dvl_white.x(),
                             p.dvl_rate,
                             p.depth_white,
                             p.start_tilt,

@@ -134,6 +134,22 @@ double horizontalNees(const Outcome& outcome) {
   return error.dot(P.llt().solve(error));
 }
 
+TEST(SinsEstimator, BridgesAGapOfTheUnitAndSaysHowUnsureItIsThen) {
+  // GIVEN a gap of two seconds in which the body yaws and pitches, WHEN the DVL goes on, THEN nothing runs away, and the covariance has grown with the gap
+  const Scenario scenario = scenarioOf("accuracy", 90);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    auto recording = recordingOf(scenario, seed);
+    const auto whole = run(scenario, recording, "ss_srupf", 100);
+    const auto in_gap = [](const ImuReading& reading) { return reading.stamp > stampFromSeconds(60) && reading.stamp < stampFromSeconds(62); };
+    recording.imu.erase(std::remove_if(recording.imu.begin(), recording.imu.end(), in_gap), recording.imu.end());
+    const auto gappy = run(scenario, recording, "ss_srupf", 100);
+    ASSERT_EQ(gappy.solutions.size(), recording.imu.size());
+    EXPECT_GT(gappy.solutions.back().covariance->diagonal().segment<2>(3).sum(), 2 * whole.solutions.back().covariance->diagonal().segment<2>(3).sum());
+    EXPECT_LT(horizontalNees(gappy), chiSquaredQuantile(0.999, 2)) << "seed " << seed;
+    EXPECT_LT(std::abs(gappy.attitude_error.z()), 3 * std::sqrt((*gappy.solutions.back().covariance)(8, 8))) << "seed " << seed;
+  }
+}
+
 TEST(SinsEstimator, LivesThroughMinutesWithoutTheDvl) {
   // GIVEN a start 5 degrees off and no bottom lock from 60 s to 240 s, WHEN it comes back, THEN the error is what the covariance said, and the velocity is back
   const Scenario scenario = scenarioOf("large_angle", 260);

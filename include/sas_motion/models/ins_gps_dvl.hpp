@@ -23,13 +23,22 @@ enum State {
   kGyroMarkov = 12,     ///< drift; body
   kAccelerometer = 15,  ///< bias; body
   kGpsPosition = 18,
-  kDvlVelocity = 21,  ///< body
+  kDvlVelocity = 21,  ///< body; of a DVL that drifts: drift angle, forward, up
   kDvlPosition = 24,  ///< dead-reckoned from DVL and attitude
 };
 using Errors = Vector<kStates>;
 using ErrorMatrix = Matrix<kStates>;
 
 constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
+
+/// A DVL whose error along the way wanders, and which is turned about its upward axis by an angle that wanders: what it reads to starboard too much grows
+/// with the speed. (B.4)
+struct DvlDrift {
+  double offset = 0.01;             ///< of the forward velocity [m/s]
+  double offset_time = 600;         ///< correlation time [s]
+  double angle = 0.2 * kRadPerDeg;  ///< [rad]
+  double angle_time = 600;          ///< correlation time [s]
+};
 
 /// How wrong the sensors are: constants, first-order Markov processes and white noise. (C.4), its defaults.
 struct Parameters {
@@ -44,10 +53,12 @@ struct Parameters {
   Vector<3> gps_white{0.5, 0.5, 1};                    ///< [m]
   double dvl_markov = 0.01;                            ///< [m/s]
   double dvl_time = 300;                               ///< [s]
-  double dvl_white = 0.01;                             ///< [m/s]
+  std::optional<DvlDrift> dvl_drift;                   ///< in the place of dvl_markov
+  Vector<3> dvl_white{0.01, 0.01, 0.01};               ///< starboard, forward, up [m/s]
   double dvl_rate = 5;                                 ///< readings that are dead-reckoned [1/s]
   double dvl_scale = 0;                                ///< that the filters do not know; 0 where there is none [-]
   double dvl_misalignment = 0;                         ///< the same, about each axis [rad]
+  double dvl_lever_sigma = 0;                          ///< the same: how far dvl_lever_body is wrong on each axis [m]
   double depth_white = 0.1;                            ///< [m]
   Vector<3> start_position{2, 2, 2};                   ///< [m]
   double start_velocity = 0.05;                        ///< [m/s]
@@ -123,6 +134,9 @@ class ErrorModel {
   /// Velocity of the sonar's array forward and along its line of sight.
   LinearMeasurement<kStates, 2> dpc(const NavigationState& ins, const Vector<3>& rate_body, const ArrayVelocity& array, const Errors& mean) const;
 
+  /// What a DVL at this velocity reads too much by its errors that wander, to first order in them; body [m/s].
+  Vector<3> dvlError(const Vector<3>& velocity_body, const Errors& mean) const;
+
   /// Velocity of the INS over the ground from the DVL's reading; body.
   Vector<3> velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const;
 
@@ -134,9 +148,12 @@ class ErrorModel {
   Vector<3> metresPerPosition() const { return unit_.segment<3>(kPosition).cwiseInverse(); }
 
  private:
+  Matrix<3> dvlErrorByState(const Vector<3>& velocity_body) const;
+
   Parameters parameters_;
   Errors unit_;
   Errors density_;  // of the white noise that drives each state, in its units squared per second
+  Vector<3> dvl_sigma_, dvl_time_;  // of what wanders of the DVL
 };
 
 /// What a DVL makes of its velocity, by its scale and its small misalignment: (1 + s) (I - [mu x]).

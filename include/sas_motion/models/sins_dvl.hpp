@@ -6,6 +6,10 @@
 #include "sas_motion/math/gaussian.hpp"
 #include "sas_motion/navigation/preintegration.hpp"
 
+namespace sas_motion::ins {
+struct Parameters;
+}
+
 /// A strapdown INS aided by a DVL, by errors that may be large: attitude errors are additive errors of the quaternion [Yu1999, Li2014]; numbers as in
 /// docs/sins_dvl.md. Errors are computed minus true.
 namespace sas_motion::sins {
@@ -44,6 +48,9 @@ struct Parameters {
   double start_tilt = 0.05 * kRadPerDeg;               ///< [rad]
   double start_heading = 0.3 * kRadPerDeg;             ///< [rad]
 };
+
+/// The same sensors and start as the fusion by small angles is told of them; it has no GPS then.
+ins::Parameters inSmallAngles(const Parameters& parameters);
 
 /// q = [scalar, vector] as the state has it.
 inline Vector<4> coefficients(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
@@ -93,6 +100,10 @@ class View {
  private:
   NavigationState ins_;
 };
+
+/// A root of the noise of a quaternion that is turned about nav axes by angles of these variances [rad^2].
+template <int N>
+Matrix<N> turnRoot(const NavigationState& ins, const Vector<3>& variance);
 
 /// What is known of the errors at the start, where the INS believes to be at `ins`.
 template <int N>

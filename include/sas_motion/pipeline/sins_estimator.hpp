@@ -39,8 +39,14 @@ const std::vector<NamedFilter>& namedFilters();
 /// Null for an unknown name.
 const NamedFilter* findFilter(const std::string& name);
 
-/// pf, upf, ss_srupf, their forms, ss_srukf, ukf; null for any other name. The INS is mechanised from its readings and never corrected; its estimated
-/// errors are taken out of the solution. Audits hold the effective number of particles.
+/// pf, upf, ss_srupf, their forms, ss_srukf, ukf, and beside them the fusion by small angles, ckf27 and robust_ckf27; null for any other name. The INS is
+/// mechanised from its readings and, but for the latter, never corrected; its estimated errors are taken out of the solution. Audits hold the effective
+/// number of particles.
 std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config);
+
+/// The same sensors as the fusion by small angles is told of them.
+ins::Config inSmallAngles(const Config& config);
+
+using EstimatorFactory = std::function<std::unique_ptr<ins::Estimator>(const std::string&, const Config&)>;
 
 }  // namespace sas_motion::sins

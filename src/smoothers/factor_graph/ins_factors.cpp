@@ -3,6 +3,7 @@
 #include "sas_motion/smoothers/factor_graph/ins_factors.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "sas_motion/smoothers/factor_graph/loss_estimator.hpp"
@@ -49,6 +50,15 @@ gtsam::SharedNoiseModel inertialNoise(const ErrorModel& model, const InertialInt
   return gaussian(Q_node);
 }
 
+/// By how much an attitude error phi shrinks as a turn takes some of it away: the right Jacobian of rotations, inverted, at -phi. Only near phi = 0 is
+/// that the identity. [Forster2017, (9)]
+Matrix<3> attitudeErrorByTurn(const Vector<3>& phi) {
+  const double angle = phi.norm();
+  const double second = angle < 1e-3 ? 1.0 / 12 : 1 / (angle * angle) - (1 + std::cos(angle)) / (2 * angle * std::sin(angle));
+  const Matrix<3> turn = skew(phi);
+  return Matrix<3>::Identity() - 0.5 * turn + second * turn * turn;
+}
+
 /// Calls `visit` with the linear measurement of a reading.
 template <class Visit>
 void withMeasurement(const ErrorModel& model, const NavigationState& ins, const Aiding& reading, const Vector<3>& rate_body, const Errors& mean,
@@ -82,6 +92,7 @@ gtsam::KeyVector dvlKeys(const Parameters& parameters) {
   gtsam::KeyVector keys;
   if (parameters.dvl_scale > 0) keys.push_back(kDvlScaleKey);
   if (parameters.dvl_misalignment > 0) keys.push_back(kDvlMisalignmentKey);
+  if (parameters.dvl_lever_sigma > 0) keys.push_back(kDvlLeverKey);
   return keys;
 }
 
@@ -133,18 +144,22 @@ gtsam::Vector AidingFactor::unwhitenedError(const gtsam::Values& values, boost::
 
 void AidingFactor::distort(const gtsam::Values& values, const LinearMeasurement<kStates, 3>& z, double& error, Matrix<1, kStates>& row,
                            boost::optional<std::vector<gtsam::Matrix>&> H) const {
-  const bool scaled = values.exists(kDvlScaleKey), turned = values.exists(kDvlMisalignmentKey);
-  const double scale = scaled ? values.at<double>(kDvlScaleKey) : 0;
-  const Vector<3> misalignment = turned ? values.at<gtsam::Vector3>(kDvlMisalignmentKey) : Vector<3>::Zero();
-  const Matrix<3> D = dvlDistortion(scale, misalignment);
-  // The velocity that the DVL should read, of which the innovation is the difference to what it read, less its error.
-  const Vector<3> velocity = z.innovation - values.at<Node>(keys()[0]).wandering.tail<3>() + reading_.velocity_body;
-  error += (D.row(row_) * velocity)(0) - velocity(row_);
+  const auto estimated = [&](gtsam::Key key) { return std::find(keys().begin(), keys().end(), key) != keys().end(); };
+  const auto vectorAt = [&](gtsam::Key key) -> Vector<3> { return estimated(key) ? Vector<3>(values.at<gtsam::Vector3>(key)) : Vector<3>::Zero(); };
+  const double scale = estimated(kDvlScaleKey) ? values.at<double>(kDvlScaleKey) : 0;
+  const Matrix<3> D = dvlDistortion(scale, vectorAt(kDvlMisalignmentKey));
+  // The velocity of the DVL where it is told to be, which the innovation is of, and where it is.
+  const NavigationState& state = values.at<Node>(keys()[0]).state;
+  const Matrix<3> turning = skew(rateOverGround(state, rate_body_));
+  const Vector<3> told = state.q_nav_body.conjugate() * state.velocity_nav - model_->velocityOfIns(state, rate_body_, Vector<3>::Zero());
+  const Vector<3> velocity = told + turning * vectorAt(kDvlLeverKey);
+  error += (D.row(row_) * velocity)(0) - told(row_);
   row.head<9>() = D.row(row_) * z.H.leftCols<9>();
   if (!H) return;
   auto column = H->begin() + 1;
-  if (scaled) *column++ = gtsam::Matrix(D.row(row_) * velocity / (1 + scale));
-  if (turned) *column = gtsam::Matrix((1 + scale) * skew(velocity).row(row_));
+  if (estimated(kDvlScaleKey)) *column++ = gtsam::Matrix(D.row(row_) * velocity / (1 + scale));
+  if (estimated(kDvlMisalignmentKey)) *column++ = gtsam::Matrix((1 + scale) * skew(velocity).row(row_));
+  if (estimated(kDvlLeverKey)) *column = gtsam::Matrix(D.row(row_) * turning);
 }
 
 BeliefFactor::BeliefFactor(gtsam::Key node, const NavigationState& fused, const Gaussian<kStates>& belief)
@@ -165,6 +180,7 @@ gtsam::Vector BeliefFactor::evaluateError(const Node& node, const Constants& con
   if (H_node) {
     *H_node = gtsam::Matrix::Zero(kRows, kNodeStates);
     H_node->topRows<kNodeStates>() = -gtsam::Matrix(signs().asDiagonal());
+    H_node->block<3, 3>(kAttitude, kAttitude) = -attitudeErrorByTurn(attitudeError(node_.state.q_nav_body, node.state.q_nav_body));
   }
   if (H_constants) {
     *H_constants = gtsam::Matrix::Zero(kRows, kConstantStates);

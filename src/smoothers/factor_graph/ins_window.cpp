@@ -74,14 +74,14 @@ InsWindow::InsWindow(const ErrorModel& model, const Loss& loss, const Navigation
     values_.insert(kDvlScaleKey, 0.0);
     graph_.addPrior(kDvlScaleKey, 0.0, gtsam::noiseModel::Isotropic::Sigma(1, p.dvl_scale));
   }
-  if (p.dvl_misalignment > 0) {
-    values_.insert(kDvlMisalignmentKey, gtsam::Vector3(0, 0, 0));
-    graph_.addPrior(kDvlMisalignmentKey, gtsam::Vector3(0, 0, 0), gtsam::noiseModel::Isotropic::Sigma(3, p.dvl_misalignment));
-  }
+  addConstant(kDvlMisalignmentKey, p.dvl_misalignment);
+  addConstant(kDvlLeverKey, p.dvl_lever_sigma);
 }
 
-Vector<3> InsWindow::dvlMisalignment() const {
-  return values_.exists(kDvlMisalignmentKey) ? values_.at<gtsam::Vector3>(kDvlMisalignmentKey) : Vector<3>::Zero();
+void InsWindow::addConstant(gtsam::Key key, double sigma) {
+  if (!(sigma > 0)) return;
+  values_.insert(key, gtsam::Vector3(0, 0, 0));
+  graph_.addPrior(key, gtsam::Vector3(0, 0, 0), gtsam::noiseModel::Isotropic::Sigma(3, sigma));
 }
 
 void InsWindow::add(const InsChain::Stop& stop) {

@@ -35,6 +35,12 @@ class ParticleFilter {
     crowd_.forEach([&](std::size_t i) { crowd_[i] = f(crowd_[i]) + Q_root * crowd_.template gaussians<N>(i); });
   }
 
+  /// Draws a step from N(0, root root^T) for every particle.
+  void scatter(const Matrix<N>& root) {
+    crowd_.nextStep();
+    crowd_.forEach([&](std::size_t i) { crowd_[i] += root * crowd_.template gaussians<N>(i); });
+  }
+
   /// After reading z = h(x) + v, v ~ N(0, R).
   template <int M, class Function, class Difference = PlainDifference>
   ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) {

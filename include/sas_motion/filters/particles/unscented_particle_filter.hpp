@@ -74,6 +74,19 @@ class UnscentedParticleFilter {
     });
   }
 
+  /// Draws a step from N(0, root root^T) for every particle: for noise that is too wide for one Gaussian. A single particle is widened by it.
+  void scatter(const Matrix<N>& root) {
+    crowd_.nextStep();
+    crowd_.forEach([&](std::size_t i) {
+      Particle& particle = crowd_[i];
+      if (crowd_.size() == 1)
+        Form::widen(particle.belief, root);
+      else
+        move(particle, particle.belief.mean + root * crowd_.template gaussians<N>(i));
+    });
+    addSquares<N, N>(noise_root_, root);
+  }
+
   /// After reading z = h(x) + v, v ~ N(0, R).
   template <int M, class Function, class Difference = PlainDifference>
   ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) {

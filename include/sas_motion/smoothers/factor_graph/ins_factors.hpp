@@ -43,7 +43,7 @@ class AidingFactor final : public gtsam::NoiseModelFactor {
   double residual(const gtsam::Values& values) const { return unwhitenedError(values)(0) / sigma_; }
 
  private:
-  /// What a DVL's scale and misalignment change.
+  /// What a DVL's scale, misalignment and lever arm change.
   void distort(const gtsam::Values& values, const LinearMeasurement<kStates, 3>& z, double& error, Matrix<1, kStates>& row,
                boost::optional<std::vector<gtsam::Matrix>&> H) const;
 
@@ -67,7 +67,7 @@ class BeliefFactor final : public gtsam::NoiseModelFactor2<Node, Constants> {
   Constants constants_;
 };
 
-/// The keys of a DVL's scale and misalignment, where they are estimated.
+/// The keys of a DVL's scale, misalignment and lever arm, where they are estimated.
 gtsam::KeyVector dvlKeys(const Parameters& parameters);
 
 }  // namespace sas_motion::ins

@@ -31,9 +31,10 @@ class InsWindow {
   Stamp stamp(std::size_t k) const { return places_[k].stamp; }
   Node node(std::size_t k) const { return values_.at<Node>(places_[k].key); }
   Constants constants() const { return values_.at<Constants>(kConstantsKey); }
-  /// Of the scale [-] and the misalignment [rad] of the DVL; 0 where they are not estimated.
+  /// Of the scale [-], the misalignment [rad] and the lever arm [m] of the DVL, each less what it is told to be; 0 where they are not estimated.
   double dvlScale() const { return values_.exists(kDvlScaleKey) ? values_.at<double>(kDvlScaleKey) : 0; }
-  Vector<3> dvlMisalignment() const;
+  Vector<3> dvlMisalignment() const { return vectorAt(kDvlMisalignmentKey); }
+  Vector<3> dvlLever() const { return vectorAt(kDvlLeverKey); }
   /// Of velocity, position and attitude errors by the last solution [m/s, m, rad].
   const Matrix<9>& covariance(std::size_t k) const { return places_[k].covariance; }
   /// From this node to the next.
@@ -60,6 +61,9 @@ class InsWindow {
     Matrix<9> covariance = Matrix<9>::Zero();
   };
 
+  Vector<3> vectorAt(gtsam::Key key) const { return values_.exists(key) ? Vector<3>(values_.at<gtsam::Vector3>(key)) : Vector<3>::Zero(); }
+  /// A constant that is zero but for a standard deviation; nothing where that is 0.
+  void addConstant(gtsam::Key key, double sigma);
   /// Where a sensor is from now on; factors that stand keep what they were told.
   void place(Sensor sensor, const Vector<3>& lever_body);
 
