@@ -40,7 +40,7 @@ struct Conditioning {
   double* mean = nullptr;                ///< of the prior, then of the posterior
   double* root = nullptr;                ///< likewise
   double* nis = nullptr;                 ///< one element
-  double* done = nullptr;                ///< one element: 1, or 0 where rounding or lost rank forbade it or a number is not finite; then mean and root are spoilt
+  double* done = nullptr;                ///< one element: 1, or 0 where lost rank forbade it or numbers are not finite: mean and root are spoilt
 };
 
 /// One measurement, by taking the columns of K S_root out of the root. [Merwe2001]

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
+
 #include "sas_motion/filters/particles/lane_matrix.hpp"
 #include "sas_motion/filters/particles/one_by_one.hpp"
 #include "sas_motion/filters/square_root_filter.hpp"
