@@ -35,8 +35,8 @@ std::string whatRunsDependOn(const std::string& file) {
 
 }  // namespace
 
-Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters,
-                      const ins::EstimatorFactory& make_ins, const sins::EstimatorFactory& make_sins) {
+Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters, const ins::EstimatorFactory& make_ins,
+                      const sins::EstimatorFactory& make_sins) {
   auto yaml = YamlSection::fromFile(file);
   const std::string folder = std::filesystem::path(file).parent_path();
   Suite suite;

@@ -25,6 +25,7 @@ void readGps(YamlSection yaml, ins::Settings& shared) {
 
 void readDvl(YamlSection yaml, Settings& settings) {
   readDvlErrors(yaml, settings.config.parameters);
+  yaml.number("lever_sigma", settings.config.parameters.dvl_lever_sigma, {0, 10});
   ins::MessageOptions& messages = settings.shared.of(ins::Sensor::Dvl);
   messages.white = settings.config.parameters.dvl_white;
   ins::readMessages(yaml, messages);

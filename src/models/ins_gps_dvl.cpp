@@ -104,7 +104,7 @@ ErrorMatrix ErrorModel::dynamics(const Motion& motion) const {
   F.block<3, 3>(kVelocity, kAccelerometer) = C;
   F.block<3, 3>(kAttitude, kGyroConstant) = F.block<3, 3>(kAttitude, kGyroMarkov) = -C;
   F.block<3, 3>(kGyroMarkov, kGyroMarkov) = -I / parameters_.gyro_time;
-  F.block<3, 3>(kGpsPosition, kGpsPosition) = -I / parameters_.gps_time;  // (C.3)
+  F.block<3, 3>(kGpsPosition, kGpsPosition) = -I / parameters_.gps_time;                          // (C.3)
   F.block<3, 3>(kDvlVelocity, kDvlVelocity) = -Matrix<3>(dvl_time_.cwiseInverse().asDiagonal());  // (C.4)
   // Dead reckoning turns the reading by the computed attitude: C' v = C v + v x phi.
   const auto scale = unit_.segment<3>(kPosition).asDiagonal();

@@ -64,6 +64,13 @@ TEST(InsScenario, ReadsItsFileAndRefusesWhatItDoesNotKnow) {
   EXPECT_EQ(scenario.sensor(ins::Sensor::Dpc).rate, 0) << "absent unless asked for";
 }
 
+std::vector<double> readingsOfDvl(const ins::Recording& run) {
+  std::vector<double> all;
+  for (const auto& labelled : run.aiding)
+    if (labelled.reading.sensor == ins::Sensor::Dvl) all.push_back(labelled.reading.velocity_body.x());
+  return all;
+}
+
 TEST(InsScenario, ADvlsMountingChangesItsReadingsAlone) {
   auto scenario = ins::Scenario::fromFile(SAS_MOTION_SOURCE_DIR "/config/scenarios/ins/transect_dvl_mounting.yaml");
   EXPECT_DOUBLE_EQ(scenario.parameters.dvl_scale, 0.01);
@@ -72,6 +79,9 @@ TEST(InsScenario, ADvlsMountingChangesItsReadingsAlone) {
   auto plain = scenario;
   plain.parameters.dvl_scale = plain.parameters.dvl_misalignment = 0;
   const ins::Trajectory trajectory(scenario.track, scenario.duration);
+  auto moved = plain;
+  moved.parameters.dvl_lever_sigma = 0.5;
+  EXPECT_NE(readingsOfDvl(ins::simulate(moved, trajectory, 3)), readingsOfDvl(ins::simulate(plain, trajectory, 3)));
   const auto mounted = ins::simulate(scenario, trajectory, 3), straight = ins::simulate(plain, trajectory, 3);
   EXPECT_EQ(mounted.imu.back().force_body, straight.imu.back().force_body);
   ASSERT_EQ(mounted.aiding.size(), straight.aiding.size());

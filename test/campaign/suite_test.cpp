@@ -56,9 +56,10 @@ TEST(Suite, TheSuitesInTheRepositoryCanBeRead) {
   const auto any = [](const std::string&, const towfish::Config& config) { return towfish::makeEstimator("kf", config); };  // some need the factor graph
   const auto native = [](const std::string&) -> usbl::Fitter { return [](const auto& problem, const auto& options) { return usbl::fit(problem, options); }; };
   const auto any_ins = [](const std::string&, const ins::Config& config) { return ins::makeEstimator("ckf27", config); };
+  const auto any_sins = [](const std::string&, const sins::Config& config) { return sins::makeEstimator("ckf27", config); };
   int suites = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SAS_MOTION_SOURCE_DIR) / "config" / "suites")) {
-    ASSERT_NO_THROW(EXPECT_GT(Suite::fromFile(entry.path(), any, native, any_ins).tasks(), 0u)) << entry.path();
+    ASSERT_NO_THROW(EXPECT_GT(Suite::fromFile(entry.path(), any, native, any_ins, any_sins).tasks(), 0u)) << entry.path();
     ++suites;
   }
   EXPECT_GE(suites, 4);

@@ -13,10 +13,11 @@
 namespace sas_motion::testing {
 
 /// A suite from text, read as a file of its own.
-inline Suite suiteOf(const std::string& text, const ins::EstimatorFactory& make_ins = ins::makeEstimator) {
+inline Suite suiteOf(const std::string& text, const ins::EstimatorFactory& make_ins = ins::makeEstimator,
+                     const sins::EstimatorFactory& make_sins = sins::makeEstimator) {
   const auto path = std::filesystem::path(::testing::TempDir()) / ("suite_" + std::to_string(std::hash<std::string>()(text)) + ".yaml");
   std::ofstream(path) << text;
-  return Suite::fromFile(path, towfish::makeEstimator, {}, make_ins);
+  return Suite::fromFile(path, towfish::makeEstimator, {}, make_ins, make_sins);
 }
 
 /// A suite that is refused with a message that has this word.

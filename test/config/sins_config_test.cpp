@@ -35,6 +35,7 @@ std::vector<double> numbersOf(const Settings& s) {
                           p.dvl_angle,
                           p.dvl_angle_time,
                           p.depth_white,
+                          p.dvl_lever_sigma,
                           imu.period,
                           imu.longest_gap,
                           imu.max_rate,

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "sas_motion/models/ins_gps_dvl.hpp"
 #include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
 #include "sas_motion/simulation/ins_simulator.hpp"
@@ -206,6 +207,24 @@ TEST(SinsDvlModel, StartsAndDrivesErrorsWithFullRank) {
   felt.add(Vector<3>::Zero(), Vector<3>(0, 0, 9.8), 1);
   EXPECT_GT((Motion<kStates>(parameters, ins, felt).noiseRoot().diagonal().minCoeff()), 0);
   EXPECT_GT((Motion<kPaperStates>(parameters, ins, felt).noiseRoot().diagonal().minCoeff()), 0);
+}
+
+TEST(InSmallAngles, ReadTheSameDvl) {
+  // GIVEN an offset forward, a drift angle and a body that moves in all directions
+  NavigationState state;
+  state.latitude = 1;
+  state.velocity_nav << 2, 2.5, 0.3;
+  state.q_nav_body = quaternionOf({0.05, -0.1, 0.7});
+  Vector<kPaperStates> x = Vector<kPaperStates>::Zero();
+  x(kDvlOffset) = 0.02;
+  x(kDvlAngle) = 0.005;
+  const Vector<3> reading = View<kPaperStates>(state).dvl(x, Vector<3>::Zero());
+  // WHEN the fusion by small angles knows them, THEN nothing is left but the square of the angle
+  const ins::ErrorModel model(inSmallAngles(Parameters()), state);
+  ins::Errors mean = ins::Errors::Zero();
+  mean.segment<3>(ins::kDvlVelocity) << x(kDvlAngle), x(kDvlOffset), 0;
+  EXPECT_GT(model.dvl(state, Vector<3>::Zero(), reading, ins::Errors::Zero()).innovation.norm(), 0.02);
+  EXPECT_LT(model.dvl(state, Vector<3>::Zero(), reading, mean).innovation.norm(), 0.5 * 0.005 * 0.005 * state.velocity_nav.norm() * 1.01);
 }
 
 }  // namespace

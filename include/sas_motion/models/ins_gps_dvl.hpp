@@ -152,7 +152,7 @@ class ErrorModel {
 
   Parameters parameters_;
   Errors unit_;
-  Errors density_;  // of the white noise that drives each state, in its units squared per second
+  Errors density_;                  // of the white noise that drives each state, in its units squared per second
   Vector<3> dvl_sigma_, dvl_time_;  // of what wanders of the DVL
 };
 

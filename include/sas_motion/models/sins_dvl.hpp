@@ -42,6 +42,7 @@ struct Parameters {
   Vector<3> dvl_white{0.006, 0.006, 0.018};            ///< starboard, forward, up [m/s]
   double depth_white = 0.1;                            ///< [m]
   Vector<3> dvl_lever_body = Vector<3>::Zero();        ///< from the INS [m]
+  double dvl_lever_sigma = 0;                          ///< how far that is wrong on each axis, for the factor graphs; 0: it is known [m]
   Vector<3> depth_lever_body = Vector<3>::Zero();      ///< [m]
   Vector<3> start_position{0.06, 0.06, 1};             ///< east, north, up [m]
   double start_velocity = 0.05;                        ///< [m/s]

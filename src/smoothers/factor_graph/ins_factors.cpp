@@ -78,6 +78,15 @@ double sigmaOf(const ErrorModel& model, const Aiding& reading, int row) {
   return sigma;
 }
 
+/// By what its drift angle turns a DVL's velocity; the identity where it has none.
+Matrix<3> driftTurn(const ErrorModel& model, const Node& node) {
+  Matrix<3> turn = Matrix<3>::Identity();
+  if (!model.parameters().dvl_drift) return turn;
+  const Errors angle = node.wandering(6) * Errors::Unit(kDvlVelocity);
+  for (int axis = 0; axis < 3; ++axis) turn.col(axis) += model.dvlError(Vector<3>::Unit(axis), angle);
+  return turn;
+}
+
 gtsam::KeyVector keysOf(gtsam::Key node, const Aiding& reading, const Parameters& parameters) {
   gtsam::KeyVector keys{node};
   if (reading.sensor != Sensor::Dvl) return keys;
@@ -151,15 +160,18 @@ void AidingFactor::distort(const gtsam::Values& values, const LinearMeasurement<
   // The velocity of the DVL where it is told to be, which the innovation is of, and where it is.
   const NavigationState& state = values.at<Node>(keys()[0]).state;
   const Matrix<3> turning = skew(rateOverGround(state, rate_body_));
-  const Vector<3> told = state.q_nav_body.conjugate() * state.velocity_nav - model_->velocityOfIns(state, rate_body_, Vector<3>::Zero());
-  const Vector<3> velocity = told + turning * vectorAt(kDvlLeverKey);
-  error += (D.row(row_) * velocity)(0) - told(row_);
+  const Vector<3> of_ins = state.q_nav_body.conjugate() * state.velocity_nav;
+  const Vector<3> told = of_ins - model_->velocityOfIns(state, rate_body_, Vector<3>::Zero());
+  const Matrix<3> drift = driftTurn(*model_, values.at<Node>(keys()[0]));
+  const Vector<3> velocity = told + turning * vectorAt(kDvlLeverKey), seen = drift * velocity;
+  error += (D.row(row_) * seen)(0) - (told - of_ins + drift * of_ins)(row_);
   row.head<9>() = D.row(row_) * z.H.leftCols<9>();
+  if (model_->parameters().dvl_drift) row(kDvlVelocity) = -(D.row(row_) * model_->dvlError(velocity, Errors::Unit(kDvlVelocity)))(0);
   if (!H) return;
   auto column = H->begin() + 1;
-  if (estimated(kDvlScaleKey)) *column++ = gtsam::Matrix(D.row(row_) * velocity / (1 + scale));
-  if (estimated(kDvlMisalignmentKey)) *column++ = gtsam::Matrix((1 + scale) * skew(velocity).row(row_));
-  if (estimated(kDvlLeverKey)) *column = gtsam::Matrix(D.row(row_) * turning);
+  if (estimated(kDvlScaleKey)) *column++ = gtsam::Matrix(D.row(row_) * seen / (1 + scale));
+  if (estimated(kDvlMisalignmentKey)) *column++ = gtsam::Matrix((1 + scale) * skew(seen).row(row_));
+  if (estimated(kDvlLeverKey)) *column = gtsam::Matrix(D.row(row_) * drift * turning);
 }
 
 BeliefFactor::BeliefFactor(gtsam::Key node, const NavigationState& fused, const Gaussian<kStates>& belief)

@@ -44,6 +44,7 @@ Parameters parametersOf(bool distorted) {
   Parameters p = testing::surveyOf(100).parameters;
   p.dvl_scale = distorted ? 0.01 : 0;
   p.dvl_misalignment = distorted ? 0.01 : 0;
+  p.dvl_lever_sigma = distorted ? 0.1 : 0;
   return p;
 }
 
@@ -55,6 +56,7 @@ gtsam::Values valuesNear(Random& random) {
   values.insert(kConstantsKey, Constants(randomMatrix<kConstantStates>(random)));
   values.insert(kDvlScaleKey, 0.02);
   values.insert(kDvlMisalignmentKey, gtsam::Vector3(0.01, -0.02, 0.03));
+  values.insert(kDvlLeverKey, gtsam::Vector3(0.3, -0.5, 0.2));
   return values;
 }
 
@@ -132,7 +134,7 @@ TEST(AidingFactor, JacobiansAreThoseOfDifferences) {
         reading.sensor = sensor;
         for (int row = 0; row < rowsOf(sensor); ++row) {
           const AidingFactor factor(0, model, reading, {0.02, -0.01, 0.03}, row, Loss(LossKind::Huber));
-          EXPECT_EQ(factor.keys().size(), distorted && sensor == Sensor::Dvl ? 3U : 1U);
+          EXPECT_EQ(factor.keys().size(), distorted && sensor == Sensor::Dvl ? 4U : 1U);
           expectJacobians(factor, values, 1e-3, 2e-5);
         }
       }
@@ -140,20 +142,37 @@ TEST(AidingFactor, JacobiansAreThoseOfDifferences) {
   }
 }
 
-TEST(AidingFactor, TakesTheScaleAndMisalignmentOutOfADvl) {
-  // GIVEN a DVL that reads 2 % too much and is turned by 30 mrad
+TEST(AidingFactor, JacobiansOfADvlThatDriftsAreThoseOfDifferences) {
+  Random random = announced(415);
+  Parameters parameters = parametersOf(true);
+  parameters.dvl_drift = DvlDrift();
+  const auto model = modelOf(parameters);
+  gtsam::Values values = valuesNear(random);
+  Node node = values.at<Node>(0);
+  node.wandering.tail<3>() << 0.1, 0.02, 0.01;  // [rad], [m/s], [m/s]
+  values.update(0, node);
+  Aiding reading;
+  reading.sensor = Sensor::Dvl;
+  reading.velocity_body = node.state.q_nav_body.conjugate() * node.state.velocity_nav;
+  for (int row = 0; row < 3; ++row) expectJacobians(AidingFactor(0, model, reading, {0.02, -0.01, 0.03}, row, Loss(LossKind::L2)), values, 1e-3, 2e-5);
+}
+
+TEST(AidingFactor, TakesScaleMisalignmentAndLeverArmOutOfADvl) {
+  // GIVEN a DVL that reads 2 % too much, is turned by 30 mrad and sits half a metre from where it is told to be
   const auto model = modelOf(parametersOf(true));
-  const Vector<3> rate(0.02, -0.01, 0.03), misalignment(0.01, -0.02, 0.03);
+  const Vector<3> rate(0.02, -0.01, 0.03), misalignment(0.01, -0.02, 0.03), lever(0.3, -0.5, 0.2);
   const Node node = nodeAt(kBegin);
   const ErrorModel plain({}, node.state);
   Aiding reading;
   reading.sensor = Sensor::Dvl;
   reading.velocity_body = -model->velocityOfIns(node.state, rate, -(node.state.q_nav_body.conjugate() * node.state.velocity_nav));
+  reading.velocity_body += rateOverGround(node.state, rate).cross(lever);
   reading.velocity_body = dvlDistortion(0.02, misalignment) * reading.velocity_body;
   gtsam::Values values;
   values.insert(0, node);
   values.insert(kDvlScaleKey, 0.02);
   values.insert(kDvlMisalignmentKey, gtsam::Vector3(misalignment));
+  values.insert(kDvlLeverKey, gtsam::Vector3(lever));
   for (int row = 0; row < 3; ++row) {
     const AidingFactor factor(0, model, reading, rate, row, Loss(LossKind::L2));
     EXPECT_NEAR(factor.unwhitenedError(values)(0), 0, 1e-12);
@@ -182,6 +201,27 @@ TEST(BeliefFactor, WeighsAsTheFilterDoes) {
   const double square = difference.dot(P.llt().solve(difference));
   EXPECT_NEAR(2 * factor.error(values), square, 1e-4 * square);
   expectJacobians(factor, values, 1e-3, 2e-4);
+}
+
+TEST(BeliefFactor, IsExactWhereTheAttitudeIsFarOff) {
+  // GIVEN a start whose heading is 30 and 120 degrees wrong and whose tilt is too
+  for (const double heading : {30.0, 120.0}) {
+    const NavigationState truth = nodeAt(kBegin).state;
+    const Vector<3> phi(0.01, -0.02, heading * kRadPerDeg);
+    NavigationState believed = truth;
+    believed.q_nav_body = quaternionOf(-phi) * truth.q_nav_body;
+    Parameters parameters;
+    parameters.start_heading = 1;
+    parameters.start_tilt = 0.01;
+    const ErrorModel model(parameters, believed);
+    const BeliefFactor factor(0, believed, model.start());
+    gtsam::Values values;
+    values.insert(0, nodeOf(truth, Errors::Zero()));
+    values.insert(kConstantsKey, Constants(Constants::Zero()));
+    // THEN the error is the rotation vector, however long, and the Jacobian that of differences
+    EXPECT_LT((factor.unwhitenedError(values).segment<3>(kAttitude) * kMilliradian - phi).norm(), 1e-9);
+    expectJacobians(factor, values, 1e-4, 1e-6);
+  }
 }
 
 }  // namespace

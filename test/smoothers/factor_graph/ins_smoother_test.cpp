@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
 
+#include <gtsam/nonlinear/Marginals.h>
+
 #include <cmath>
 #include <limits>
 
@@ -173,6 +175,31 @@ TEST(InsSmoother, EstimatesAScaleAndMisalignmentThatTheFilterDoesNotKnow) {
     EXPECT_NE(smoother.window()->dvlMisalignment().norm(), 0);
   }
   EXPECT_LT(std::sqrt(batch / filter), 0.6);
+}
+
+TEST(InsSmoother, FindsADvlThatIsNotWhereItIsToldToBe) {
+  // GIVEN a survey with turns, whose DVL sits half a metre off, drawn by what the graph is told
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Scenario scenario = surveyOf(300);
+    scenario.parameters.dvl_lever_body += Vector<3>(0.5, -0.5, 0.3);
+    const Recording recording = recordingOf(scenario, seed);
+    Scenario told = scenario;
+    told.parameters.dvl_lever_body -= Vector<3>(0.5, -0.5, 0.3);
+    told.parameters.dvl_lever_sigma = 0.5;
+    InsSmoother::Options options;
+    options.window = FixedLag();
+    options.window->lag = 1000;  // so that the graph stays to be looked at
+    InsSmoother smoother(configOf(told), options);
+    Output output;
+    smoother.start(recording.start, 0);
+    testing::feed(smoother, recording, output);
+    const Vector<3> off = smoother.window()->dvlLever() - Vector<3>(0.5, -0.5, 0.3);
+    const gtsam::Marginals marginals(smoother.window()->graph(), smoother.window()->values());
+    const Matrix<3> P = marginals.marginalCovariance(kDvlLeverKey);
+    EXPECT_LT(off.dot(P.llt().solve(off)), 16.3) << "99.9 % of chi-square with 3 degrees of freedom, off by " << off.transpose();
+    EXPECT_LT(P.diagonal().cwiseSqrt().maxCoeff(), 0.2) << "much less than what was believed";
+    EXPECT_LT(off.norm(), 0.3);
+  }
 }
 
 TEST(InsSmoother, StandsWhatSensorsReallySend) {

@@ -117,7 +117,8 @@ class Crowd {
     return weights.cwiseMax(kTiny).cwiseSqrt().cwiseInverse().asDiagonal() * choleskyLower<M>(R).value();
   }
 
-  /// Normalises, and resamples where too few particles count; `renew(particle, copies, i)` makes the i-th from one of `copies` of its parent.
+  /// Normalises, and resamples where too few particles count; `renew(particle, copied, i)` makes the i-th of its parent, whose only one it
+  /// is or one of several.
   template <int M, class Renew>
   void weigh(ParticleUpdate<M>& update, const Renew& renew) {
     if (!weights_.normalise()) update.verdict = Verdict::Invalid;
@@ -128,8 +129,8 @@ class Crowd {
     resampleSystematically(weights_.values(), random(size()).uniform(), parents_);
     forEach([&](std::size_t i) {
       others_[i] = particles_[parents_[i]];
-      const auto [first, last] = std::equal_range(parents_.begin(), parents_.end(), parents_[i]);
-      renew(others_[i], last - first, i);
+      const bool after = i > 0 && parents_[i - 1] == parents_[i], before = i + 1 < size() && parents_[i + 1] == parents_[i];  // they are in order
+      renew(others_[i], after || before, i);
     });
     particles_.swap(others_);
     weights_.makeEqual();

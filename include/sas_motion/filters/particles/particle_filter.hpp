@@ -48,7 +48,7 @@ class ParticleFilter {
     if (update.verdict == Verdict::Invalid) return update;
     const Matrix<M> R_root = crowd_.noiseRoot(R, update.weights);
     crowd_.forEach([&](std::size_t i) { crowd_.weights().multiply(i, logDensity<M>(difference(z, Vector<M>(h(crowd_[i]))), R_root)); });
-    crowd_.weigh(update, [](Vector<N>&, std::ptrdiff_t, std::size_t) {});
+    crowd_.weigh(update, [](Vector<N>&, bool, std::size_t) {});
     return update;
   }
 

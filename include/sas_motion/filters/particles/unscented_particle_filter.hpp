@@ -101,8 +101,8 @@ class UnscentedParticleFilter {
         crowd_.weights().multiply(i, draws ? draw<M>(i, z, h, R_root, difference) : log_likelihood);
       });
     });
-    crowd_.weigh(update, [&](Particle& particle, std::ptrdiff_t copies, std::size_t i) {
-      if (weighting_ == Weighting::Mixture) split(particle, copies, i);
+    crowd_.weigh(update, [&](Particle& particle, bool copied, std::size_t i) {
+      if (copied && weighting_ == Weighting::Mixture) split(particle, i);
     });
     noise_root_.setZero();
     return update;
@@ -171,8 +171,7 @@ class UnscentedParticleFilter {
   static void move(Particle& particle, const Vector<N>& x) { particle.moved = particle.belief.mean = x; }
 
   /// Draws one of several copies from its parent's Gaussian and narrows it, so that together they have the parent's covariance.
-  void split(Particle& particle, std::ptrdiff_t copies, std::size_t i) const {
-    if (copies < 2) return;
+  void split(Particle& particle, std::size_t i) const {
     const auto root = Form::root(particle.belief);
     if (!root) return;
     move(particle, particle.belief.mean + std::sqrt(1 - kept_) * (*root * crowd_.template gaussians<N>(i)));
