@@ -216,7 +216,7 @@ TEST(InSmallAngles, ReadTheSameDvl) {
   state.velocity_nav << 2, 2.5, 0.3;
   state.q_nav_body = quaternionOf({0.05, -0.1, 0.7});
   Vector<kPaperStates> x = Vector<kPaperStates>::Zero();
-  x(kDvlOffset) = 0.02;
+  x(kDvlOffset) = -0.02;
   x(kDvlAngle) = 0.005;
   const Vector<3> reading = View<kPaperStates>(state).dvl(x, Vector<3>::Zero());
   // WHEN the fusion by small angles knows them, THEN nothing is left but the square of the angle

@@ -189,6 +189,7 @@ TEST(InsSmoother, FindsADvlThatIsNotWhereItIsToldToBe) {
     InsSmoother::Options options;
     options.window = FixedLag();
     options.window->lag = 1000;  // so that the graph stays to be looked at
+    options.window->solve_interval = 100;
     InsSmoother smoother(configOf(told), options);
     Output output;
     smoother.start(recording.start, 0);
