@@ -67,10 +67,13 @@ def test_a_simulated_bag_starts_with_a_fix_and_a_velocity(tow):
 def test_the_heading_is_found(reprocessed):
     topics = toolbox.topics(reprocessed)
     truth = {m.header.stamp.to_nsec(): m.pose.pose.orientation for m in topics["truth/odometry"]}
+
+    def off(answer):  # truth may come between the answers
+        stamp = answer.header.stamp.to_nsec()
+        return heading_off(answer.pose.pose.orientation, truth.get(stamp) or truth[stamp + 10_000_000])
     for name in ("upf", "ss_srupf", "smooth_ss_srupf"):
         first, last = topics[f"{name}/odometry"][0], topics[f"{name}/odometry"][-1]
-        assert heading_off(first.pose.pose.orientation, truth[first.header.stamp.to_nsec()]) > 4
-        assert heading_off(last.pose.pose.orientation, truth[last.header.stamp.to_nsec()]) < 2
+        assert off(first) > 4 and off(last) < 2
     last = topics["ss_srupf/odometry"][-1]
     assert all(last.pose.covariance[7 * i] > 0 for i in range(6)) and all(last.twist.covariance[7 * i] > 0 for i in range(3))
 
@@ -108,9 +111,9 @@ def test_without_a_velocity_of_gnss_the_dvls_starts_it(tow, few, tmp_path):
             if topic == "gnss/fix":
                 continue
             out.write(topic, message, time)
-            if topic == "truth/fix" and message.header.stamp.nsec == 20_000_000:
+            if topic == "truth/fix" and message.header.stamp.nsecs == 20_000_000:
                 message.header.frame_id = "gnss_link"
-                message.header.stamp.nsec += 5_000_000
+                message.header.stamp.nsecs += 5_000_000
                 message.position_covariance_type, message.position_covariance = 2, [0.01, 0, 0, 0, 0.01, 0, 0, 0, 1]
                 out.write("gnss/fix", message, time)
     later = toolbox.reprocess(tmp_path / "later.bag", tmp_path / "out", ["ss_srukf"], "--config", few)

@@ -31,7 +31,7 @@ def offline(bag, config, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def live(session, bag, config, offline):
+def live(session, sensors, bag, config, offline):
     """What was heard of a played bag until all had settled: settled answers, updates, diagnostics, and the answer for a ping between two stamps."""
     settled, now, updates, status = [], [], [], []
     subscribers = [rospy.Subscriber(f"{NAME}/{leaf}", kind, into.append, queue_size=10000) for leaf, kind, into in
