@@ -80,7 +80,10 @@ def nearly_right(band):
 
 def sigmas(band):
     """Returns how large the errors are beside the stated sigma."""
-    return f'errors {math.sqrt(max(band["mean"], 0) / band["degrees"]):.1f}σ in RMS' if band.get('degrees') else f'mean {number(band["mean"])}'
+    if not band.get('degrees'):
+        return f'mean {number(band["mean"])}'
+    ratio = math.sqrt(max(band['mean'], 0) / band['degrees'])
+    return f'errors {ratio:.1f}σ in RMS' if ratio < 1000 else 'errors more than 1000σ in RMS'
 
 
 def rejection(scored):

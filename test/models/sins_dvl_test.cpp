@@ -227,5 +227,22 @@ TEST(InSmallAngles, ReadTheSameDvl) {
   EXPECT_LT(model.dvl(state, Vector<3>::Zero(), reading, mean).innovation.norm(), 0.5 * 0.005 * 0.005 * state.velocity_nav.norm() * 1.01);
 }
 
+TEST(SinsDvlModel, TheNoiseOfATurnIsThatOfQuaternionsThatAreTurned) {
+  Random random = testing::announced(11);
+  NavigationState ins;
+  ins.q_nav_body = Eigen::Quaterniond(0.3, -0.5, 0.2, 0.7).normalized();
+  const Vector<3> sigma(0.01, 0.02, 0.03);
+  constexpr int kDraws = 20000;
+  Matrix<4> drawn = Matrix<4>::Zero();
+  for (int i = 0; i < kDraws; ++i) {
+    const Vector<3> turn = sigma.cwiseProduct(testing::randomMatrix<3>(random));
+    const Vector<4> change = coefficients(quaternionOf(turn) * ins.q_nav_body) - coefficients(ins.q_nav_body);
+    drawn += change * change.transpose() / kDraws;
+  }
+  const Matrix<kStates> root = turnRoot<kStates>(ins, sigma.cwiseAbs2()), Q = root * root.transpose();
+  EXPECT_LT(testing::relativeDifference(Matrix<4>(Q.block<4, 4>(kQuaternion, kQuaternion)), drawn), 0.03);
+  EXPECT_DOUBLE_EQ(Q.trace(), (Q.block<4, 4>(kQuaternion, kQuaternion).trace())) << "nothing else is noisy";
+}
+
 }  // namespace
 }  // namespace sas_motion::sins

@@ -107,6 +107,20 @@ TEST(ParticleFilters, AgreeWithTheKalmanFilterOnALinearModelWithinWhatTheyDraw) 
   expectNear("ss_srupf, optimal proposal", distanceFromTheKalmanFilter(optimal, 20), 8);
 }
 
+TEST(ParticleFilters, ScatteredParticlesHaveTheNoiseBesideWhatTheyHad) {
+  const Matrix<2> noise_root = (Matrix<2>() << 0.5, 0, 2, 1).finished(), sum = Matrix<2>::Identity() + noise_root * noise_root.transpose();
+  const auto covarianceOf = [&](auto filter) -> Matrix<2> {
+    EXPECT_TRUE(filter.start({}));
+    filter.scatter(noise_root);
+    return filter.belief().covariance;
+  };
+  EXPECT_LT(testing::relativeDifference(covarianceOf(ParticleFilter<2>(options(20000))), sum), 0.05);
+  EXPECT_LT(testing::relativeDifference(covarianceOf(upf<2>(options(20000))), sum), 0.05);
+  EXPECT_LT(testing::relativeDifference(covarianceOf(ssSrupf<2>(options(20000))), sum), 0.05);
+  EXPECT_LT(testing::relativeDifference(covarianceOf(upf<2>(options(1))), sum), 1e-12) << "one particle is widened instead";
+  EXPECT_LT(testing::relativeDifference(covarianceOf(ssSrupf<2>(options(1))), sum), 1e-12);
+}
+
 TEST(ParticleFilters, OneParticleIsItsFilterAlone) {
   const auto alone = [](std::uint64_t seed) { return ssSrupf<2>(options(1, seed)); };
   const Distance distance = distanceFromTheKalmanFilter(alone, 3);
