@@ -62,6 +62,12 @@ def value(estimator, column):
     return raw * column.factor if finite(raw) else None
 
 
+def text(estimator, column, missing):
+    """Returns the value of a column as it is shown; a heading that never came right says so."""
+    never = column.path == ('alignment', 'after') and dig(estimator, 'alignment', 'within_deg') is not None
+    return number(value(estimator, column), 'never' if never else missing)
+
+
 def best(metrics, column):
     """Returns the least value among the estimators that did not diverge, or None when there is nothing to compare."""
     values = [value(e, column) for _, e in ranked(metrics) if not e.get('diverged')]

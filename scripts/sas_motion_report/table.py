@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The results as plain text for a terminal of 120 columns."""
-from .columns import CONSISTENCY, NIS_GPS, OUTLIERS, best, number, outside, percent, quantity, terminal_columns, value
+from .columns import CONSISTENCY, NIS_GPS, OUTLIERS, best, outside, percent, quantity, terminal_columns, text, value
 from .inputs import dig, ranked
 
 NAME_WIDTH = 18
@@ -40,7 +40,7 @@ def text_cell(metrics, estimator, column):
         return percent(dig(estimator, *column.path), '-') + ' '
     is_best = x is not None and x == best(metrics, column)
     is_outside = column in (*CONSISTENCY, NIS_GPS) and outside(dig(estimator, *column.path[:-1]))
-    return number(x, '-') + ('*' if is_best else '!' if is_outside else ' ')
+    return text(estimator, column, '-') + ('*' if is_best else '!' if is_outside else ' ')
 
 
 def summary(metrics):

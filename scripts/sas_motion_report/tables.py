@@ -3,7 +3,7 @@
 """The tables of the page."""
 from html import escape
 
-from .columns import PAGE, best, number, outside, percent, quantity, value
+from .columns import PAGE, best, number, outside, percent, quantity, text, value
 from .inputs import SENSORS, dig, ranked
 
 STATES = ('position', 'height', 'velocity', 'heading', 'tilt', 'speed', 'current')
@@ -22,8 +22,8 @@ def table(caption, header, rows, name):
 
 def cell(content):
     """Returns a table cell; a pair is (text, class)."""
-    text, kind = content if isinstance(content, tuple) else (content, '')
-    return f'<td class="{kind}">{text}</td>' if kind else f'<td>{text}</td>'
+    shown, kind = content if isinstance(content, tuple) else (content, '')
+    return f'<td class="{kind}">{shown}</td>' if kind else f'<td>{shown}</td>'
 
 
 def results(metrics):
@@ -40,8 +40,8 @@ def results_row(metrics, estimator, columns):
     """Returns the cells of one estimator."""
     if estimator.get('diverged'):
         return [('diverged', 'bad')] + ['–'] * (len(columns) - 1)
-    values = [value(estimator, c) for c in columns]
-    return [(number(v), 'best') if v is not None and v == best(metrics, c) else number(v) for v, c in zip(values, columns)]
+    shown = [(text(estimator, c, '–'), value(estimator, c), c) for c in columns]
+    return [(cell_text, 'best') if v is not None and v == best(metrics, c) else cell_text for cell_text, v, c in shown]
 
 
 def consistency(metrics):

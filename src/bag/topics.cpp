@@ -12,6 +12,8 @@
 namespace sas_motion::ros_side {
 namespace {
 
+constexpr const char* kTwist = "geometry_msgs/TwistWithCovarianceStamped";
+
 using TypeByTopic = std::map<std::string, std::string>;
 
 /// Whether an estimator NAME writes NAME/leaf.
@@ -70,8 +72,11 @@ SensorTopics findTopics(const std::vector<BagConnection>& connections, const Set
 InsTopics findTopics(const std::vector<BagConnection>& connections, const InsSettings& settings, const std::string& file) {
   TypeByTopic sensors = sensorsIn(connections);
   InsTopics topics;
-  for (const auto& [topic, type] : sensors)
-    if (!settings.velocity_topic.empty() && bareTopic(topic) == bareTopic(settings.velocity_topic)) topics.velocity = topic;
+  for (const auto& [topic, type] : sensors) {
+    if (settings.velocity_topic.empty() || bareTopic(topic) != bareTopic(settings.velocity_topic)) continue;
+    if (type != kTwist) throw std::runtime_error(fmt::format("{}: topic {} is a {} but must be a {} (topics.velocity)", file, topic, type, kTwist));
+    topics.velocity = topic;
+  }
   sensors.erase(topics.velocity);  // it is not the DVL's
   std::vector<std::string> missing;
   const auto take = [&](std::string& topic, const std::string& wanted, const char* type, const char* key, bool enabled) {
@@ -81,12 +86,12 @@ InsTopics findTopics(const std::vector<BagConnection>& connections, const InsSet
   const auto enabled = [&](ins::Sensor sensor) { return settings.estimation.of(sensor).enabled; };
   take(topics.imu, settings.imu_topic, "sensor_msgs/Imu", "imu", true);
   take(topics.fix, settings.fix_topic, "sensor_msgs/NavSatFix", "fix", enabled(ins::Sensor::Gps));
-  take(topics.twist, settings.twist_topic, "geometry_msgs/TwistWithCovarianceStamped", "twist", enabled(ins::Sensor::Dvl));
+  take(topics.twist, settings.twist_topic, kTwist, "twist", enabled(ins::Sensor::Dvl));
   take(topics.depth, settings.depth_topic, "geometry_msgs/PoseWithCovarianceStamped", "depth", enabled(ins::Sensor::Depth));
   if (missing.empty()) return topics;
   throw std::runtime_error(fmt::format(
-      "{}: no topic {}; 'rosbag info' lists what there is. Where there is no such sensor, say enabled: false under gps, dvl or depth in the configuration",
-      file, fmt::join(missing, ", ")));
+      "{}: no topic {}; 'rosbag info' lists what there is. Where there is no such sensor, say enabled: false under {} in the configuration", file,
+      fmt::join(missing, ", "), settings.estimation.session.alignment.fixes_aid ? "gps, dvl or depth" : "dvl or depth; a fix has to start the INS"));
 }
 
 bool isEstimate(const std::string& topic, const std::vector<std::string>& estimators) {

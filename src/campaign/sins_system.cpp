@@ -17,7 +17,7 @@ namespace {
 using namespace sins;
 
 constexpr double kScoreEvery = 0.1;  // [s]
-// Who has converged: the heading is within three standard deviations of the bound, and the velocity did not run away.
+// Who has converged: the heading is within three standard deviations of large_angle's bound, and the velocity did not run away.
 constexpr double kAlignedHeading = 2 * kRadPerDeg, kAlignedVelocity = 0.3;  // [rad, m/s]
 constexpr double kAlignedFor = 30;                                          // to the end of the run [s]
 const towfish::ApertureOptions kAperture{66, 0.015, 0.1};                   // 3.3 s at 3 m/s

@@ -62,6 +62,7 @@ void readStart(YamlSection& yaml, SessionOptions& session, double largest_deg) {
   yaml.number("velocity_wait", alignment.velocity_wait, {0, 1e6});
   yaml.number("velocity_sigma", alignment.velocity_sigma, {kTiny, 100});
   yaml.number("rest_velocity_sigma", alignment.rest_velocity_sigma, {kTiny, 100});
+  yaml.number("gnss_velocity_sigma", alignment.ground_velocity_sigma, {kTiny, 100});
   yaml.angle("tilt_deg", session.config.parameters.start_tilt, {kTiny, largest_deg});
   yaml.angle("heading_deg", session.config.parameters.start_heading, {kTiny, largest_deg});
 }

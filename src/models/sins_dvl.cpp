@@ -18,6 +18,7 @@ constexpr double kRoughQuaternion = 1e-7;            // along the quaternion, wh
 constexpr double kRoughGyro = 1e-3 * kDegPerHour;    // [rad/s]
 constexpr double kRoughAccelerometer = 1 * kMicroG;  // [m/s^2]
 constexpr double kRoughScale = 1e-6;                 // [-]
+constexpr double kLeastShare = 1e-12;                // of that of turns, which may be large: far above rounding
 constexpr double kQuaternionRegulariser = 1e-6;      // of the start, likewise
 
 double squared(double value) { return value * value; }
@@ -129,6 +130,8 @@ Matrix<N> Motion<N>::noiseRoot(const Vector<9>& besides) const {
       T * (0.25 * squared(p.angle_random_walk) * U * U.transpose() + squared(kRoughQuaternion) * Matrix<4>::Identity()) +
       ofRotation(ins_moved_.q_nav_body, besides.tail<3>());
   Q.diagonal().template segment<3>(kGyro).setConstant(T * squared(kRoughGyro));
+  auto turns = Q.template block<4, 4>(kQuaternion, kQuaternion);
+  turns.diagonal().array() += kLeastShare * turns.trace();
   Q(kDvlOffset, kDvlOffset) = squared(p.dvl_offset) * (1 - squared(offset_decay_));  // (0.5)
   Q(kDvlScale, kDvlScale) = T * squared(kRoughScale);
   Q(kDvlAngle, kDvlAngle) = squared(p.dvl_angle) * (1 - squared(angle_decay_));

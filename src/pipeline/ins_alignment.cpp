@@ -75,9 +75,19 @@ std::optional<Start> Alignment::startAt(const Aiding& fix) {
   start.parameters.start_heading = attitude_->attitude->heading_sigma;
   if (!setVelocity(fix, start)) return std::nullopt;
   displace(state, -(state.q_nav_body * parameters_.gps_lever_body) - secondsBetween(start.stamp, fix.stamp) * state.velocity_nav);
-  const Vector<3> of_fix = fix.variance ? Vector<3>(fix.variance->cwiseSqrt()) : parameters_.gps_white;
-  start.parameters.start_position = options_.fixes_aid ? Vector<3>::Constant(options_.position_sigma) : of_fix;
+  start.parameters.start_position = options_.fixes_aid ? Vector<3>::Constant(options_.position_sigma) : positionSigma(fix, start);
   return start;
+}
+
+/// Of the fix, its lever arm turned by an attitude that may be wrong, and the way since the start.
+Vector<3> Alignment::positionSigma(const Aiding& fix, const Start& start) const {
+  const Parameters& p = start.parameters;
+  const Vector<3> lever = (start.state.q_nav_body * parameters_.gps_lever_body).cwiseAbs();
+  const double across = lever.head<2>().norm(), horizontal = std::hypot(across * p.start_heading, lever.z() * p.start_tilt);
+  const double moved = secondsBetween(start.stamp, fix.stamp) * p.start_velocity;
+  const Vector<3> turned(horizontal, horizontal, across * p.start_tilt);
+  const Vector<3> of_fix = fix.variance.value_or(parameters_.gps_white.cwiseAbs2());
+  return (of_fix + turned.cwiseAbs2() + Vector<3>::Constant(moved * moved)).cwiseSqrt();
 }
 
 bool Alignment::setVelocity(const Aiding& fix, Start& start) const {

@@ -31,10 +31,13 @@ class Navigator final : public ins::Estimator {
     ins_.emplace(state, stamp, config_.imu);
     Filter& filter = ownFilter();
     const auto belief = startBelief<N>(config_.parameters, state);
-    if constexpr (std::is_same_v<Filter, ParticleFilter<N>>)
-      filter.start(belief);
-    else
-      filter.start(belief, startBelief<N>(ofOneParticle(config_.parameters), state).covariance);
+    const bool started = [&] {
+      if constexpr (std::is_same_v<Filter, ParticleFilter<N>>)
+        return filter.start(belief);
+      else
+        return filter.start(belief, startBelief<N>(ofOneParticle(config_.parameters), state).covariance);
+    }();
+    if (!started) return ins_.reset();  // no covariance to draw from: all readings of the unit are out of order then
     filter.replace([&](const Vector<N>& x) { return View<N>(state).constrained(x); });
     predicted_from_ = state;
     felt_ = {};
@@ -131,7 +134,6 @@ class Navigator final : public ins::Estimator {
     Filter& filter = ownFilter();
     filter.scatter(turnRoot<N>(predicted_from_, turned));
     filter.replace([&](const Vector<N>& x) { return View<N>(predicted_from_).constrained(x); });
-    mean_ = filter.mean();
   }
 
   NavigationState fused() const { return View<N>(ins_->state()).corrected(meanNow()); }
@@ -181,10 +183,15 @@ class Navigator final : public ins::Estimator {
     const int rows = rowsOf(reading.sensor), first = reading.sensor == ins::Sensor::Dvl ? 0 : 3;
     audit.innovation.head(rows) = update.innovation.segment(first, rows);
     audit.S.topLeftCorner(rows, rows) = update.S.block(first, first, rows, rows);
+    const bool readable = update.innovation.allFinite() && update.S.allFinite();
+    if (!readable) {
+      audit.innovation.setZero();
+      audit.S.setIdentity();
+    }
     audit.nis = audit.innovation.head(rows).dot(audit.S.topLeftCorner(rows, rows).llt().solve(audit.innovation.head(rows)));
     audit.weights.head(rows) = update.weights.segment(first, rows);
     if (filter_->particles().size() > 1) audit.effective_size = update.effective_size;
-    if (update.verdict == Verdict::Invalid) audit.reason = "no particle explains it; all are kept";
+    if (update.verdict == Verdict::Invalid) audit.reason = readable ? "no particle explains it; all are kept" : "not finite, or read together with what is not";
     return audit;
   }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/ros/ins_conversions.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sas_motion/math/angles.hpp"
@@ -14,9 +16,10 @@ namespace {
 
 using namespace ins;
 
-constexpr double kNotEstimated = 1e6;  // variance of what a solution does not have
-constexpr double kNoLock = 1e4;        // a DVL that states such a variance, or more, has no bottom lock [m^2/s^2]
-constexpr double kFastest = 30;        // beyond it a velocity is a driver's word for none [m/s]
+constexpr double kNotEstimated = 1e6;      // variance of what a solution does not have
+constexpr double kNoLock = 1e4;            // a DVL that states such a variance, or more, has no bottom lock [m^2/s^2]
+constexpr double kUnknownAngle = kPi / 2;  // standard deviation of an angle that is not known at all [rad]
+constexpr double kFastest = 30;            // beyond it a velocity is a driver's word for none [m/s]
 
 Vector<3> vectorOf(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
@@ -38,8 +41,9 @@ std::optional<MeasuredAttitude> attitudeOf(const sensor_msgs::Imu& imu, const Tr
   const auto C_nav_body = rotationOf(imu, T_base_imu);
   if (!C_nav_body) return std::nullopt;
   const auto& P = imu.orientation_covariance;
-  const auto sigma = [](double variance, double otherwise) { return usableVariance(variance) ? std::sqrt(variance) : otherwise; };
-  return MeasuredAttitude{Eigen::Quaterniond(*C_nav_body), sigma(std::max(P[0], P[4]), parameters.start_tilt), sigma(P[8], parameters.start_heading)};
+  const auto sigma = [](double variance, double otherwise) { return usableVariance(variance) ? std::min(std::sqrt(variance), kUnknownAngle) : otherwise; };
+  const double tilt = std::max(sigma(P[0], parameters.start_tilt), sigma(P[4], parameters.start_tilt));
+  return MeasuredAttitude{Eigen::Quaterniond(*C_nav_body), tilt, sigma(P[8], parameters.start_heading)};
 }
 
 /// A 6 x 6 covariance of a message from two 3-vectors' joint one.
@@ -92,9 +96,12 @@ std::optional<Aiding> readingOf(const geometry_msgs::TwistWithCovarianceStamped&
 std::optional<GroundVelocity> groundVelocityOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const ins::Settings& settings) {
   const Vector<3> velocity = vectorOf(twist.twist.twist.linear);
   const auto& P = twist.twist.covariance;
-  const double variance = std::max({P[0], P[7], P[14]});
-  if (!(velocity.norm() <= kFastest)) return std::nullopt;
-  const double sigma = usableVariance(variance) ? std::sqrt(variance) : settings.session.config.parameters.start_velocity;
+  const std::array<double, 3> stated{P[0], P[7], P[14]};
+  const bool refused = std::any_of(stated.begin(), stated.end(), [](double variance) { return variance < 0 || variance >= kNoLock; });
+  if (!(velocity.norm() <= kFastest) || refused) return std::nullopt;
+  double sigma = 0;
+  for (const double variance : stated)
+    sigma = std::max(sigma, usableVariance(variance) ? std::sqrt(variance) : settings.session.alignment.ground_velocity_sigma);
   return GroundVelocity{stampOf(twist.header.stamp) + stampFromSeconds(settings.of(Sensor::Gps).time_offset), velocity, sigma};
 }
 

@@ -29,7 +29,8 @@ std::string whyNotStarted(const ins::Alignment& alignment, const InsSettings& se
     case Lack::FixAfterAttitude:
       return fmt::format("no fix on {} comes within {} s after an orientation on {} (start.max_age)", settings.fix_topic, options.max_age, settings.imu_topic);
     case Lack::Velocity:
-      return fmt::format("no velocity on {}; the start waits {} s for one (start.velocity_wait)", settings.twist_topic, options.velocity_wait);
+      return fmt::format("no velocity on {}{}{} when a fix came; the start waits {} s for one (start.velocity_wait)", settings.velocity_topic,
+                         settings.velocity_topic.empty() ? "" : " or ", settings.twist_topic, options.velocity_wait);
     case Lack::Nothing: break;
   }
   return "";

@@ -122,7 +122,7 @@ void InsServer::queueSettled() {
       if (lane.settled_rate.due(solution.stamp)) lane.solutions.push_back(ofBase(solution));
     for (const auto& audit : output.audits) {
       ++lane.verdicts[static_cast<std::size_t>(audit.verdict)];
-      lane.effective_size = audit.effective_size;
+      if (audit.effective_size > 0) lane.effective_size = audit.effective_size;
       lane.audits.push_back(audit);
     }
     output.clear();

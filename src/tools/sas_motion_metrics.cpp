@@ -26,7 +26,8 @@ using nlohmann::json;
 constexpr std::size_t kMostPoints = 6000;  // of one plotted series
 constexpr double kShortestOutage = 30;     // a gap between fixes that is reported as an outage [s]
 constexpr double kNotEstimated = 1e6;      // variance of what an estimator does not have
-constexpr double kAligned = 2;             // a heading that is off by less is aligned [deg]
+constexpr double kAligned = 2;             // a heading that is off by less is aligned [deg],
+constexpr double kAlignedFor = 30;         // where it stays so to the end, for this time at least [s]
 
 struct Options {
   std::string bag, out;
@@ -128,7 +129,7 @@ class Judge {
     }
   }
 
-  /// When the heading, skipped or not, came within kAligned for good; null where it always was, never where it did not.
+  /// When the heading, skipped or not, came within kAligned for good: 0 where it always was, null where it did not.
   json alignmentOf(const RecordedEstimator& estimator) const {
     std::optional<double> last_off, last;
     for (const auto& estimate : estimator.estimates) {
@@ -137,8 +138,9 @@ class Judge {
       last = secondsBetween(recording_.begin, estimate.stamp);
       if (std::abs(Model::difference(estimate.belief.mean, truth->state)(kHeading)) > kAligned * kRadPerDeg) last_off = last;
     }
-    if (!last_off) return nullptr;
-    return {{"within_deg", kAligned}, {"after", *last_off < *last ? json(*last_off) : json(nullptr)}};
+    if (!last) return nullptr;
+    const double after = last_off.value_or(0);
+    return {{"within_deg", kAligned}, {"after", !last_off || *last - after >= kAlignedFor ? json(after) : json(nullptr)}};
   }
 
   /// What became of each sensor's measurements.
@@ -266,6 +268,13 @@ json costOf(const std::string& bag, const std::string& name) {
   return {{"seconds", seconds}, {"microseconds_per_update", 1e6 * seconds / measurements}, {"times_real_time", duration / seconds}};
 }
 
+/// Where all were aligned throughout, as mostly, nobody asks when.
+void forgetWhatNeverMattered(json& estimators) {
+  const auto always = [](const json& e) { return !e.contains("alignment") || e["alignment"]["after"] == 0.0; };
+  if (!std::all_of(estimators.begin(), estimators.end(), always)) return;
+  for (auto& estimator : estimators) estimator.erase("alignment");
+}
+
 void run(const Options& options) {
   const Recording recording = Recording::read(options.bag);
   makeFolder(options.out);
@@ -280,6 +289,7 @@ void run(const Options& options) {
                {"distance", distance},
                {"skipped", options.skip}};
   for (const auto& [name, estimator] : recording.estimators) metrics["estimators"][name] = judge.metrics(name, estimator, costOf(options.bag, name));
+  forgetWhatNeverMattered(metrics["estimators"]);
   writeFile(options.out + "/series.json", seriesOf(recording).dump());
   writeFile(options.out + "/metrics.json", metrics.dump(2) + "\n");
 }

@@ -85,6 +85,8 @@ TEST(InsConversions, WhatAnInertialUnitDoesNotSayIsLeftOut) {
   EXPECT_EQ(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma, settings.session.config.parameters.start_heading);
   imu.orientation_covariance[8] = 0.04;
   EXPECT_EQ(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma, 0.2);
+  imu.orientation_covariance[8] = 1e6;  // as many say that they do not know
+  EXPECT_EQ(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma, kPi / 2);
   imu.orientation_covariance[0] = -1;
   ASSERT_TRUE(readingOf(imu, pose(0, 0, 0), settings));  // its rates are good
   EXPECT_FALSE(readingOf(imu, pose(0, 0, 0), settings)->attitude);
@@ -139,6 +141,26 @@ TEST(InsConversions, AFixWithoutAPositionHasNoReading) {
   broken = fix;
   broken.status.status = sensor_msgs::NavSatStatus::STATUS_NO_FIX;
   EXPECT_FALSE(readingOf(broken, {}, settings));
+}
+
+TEST(InsConversions, AVelocityOfGnssIsAsSureAsItsWorstAxis) {
+  const ins::Settings settings;
+  auto message = twistOf(1, 2, 3, 0.04);
+  ASSERT_TRUE(groundVelocityOf(message, settings));
+  EXPECT_EQ(groundVelocityOf(message, settings)->velocity_nav, Vector<3>(1, 2, 3));
+  EXPECT_DOUBLE_EQ(groundVelocityOf(message, settings)->sigma, 0.2);
+  message.twist.covariance[7] = 0.25;
+  EXPECT_DOUBLE_EQ(groundVelocityOf(message, settings)->sigma, 0.5);
+  for (const std::size_t axis : {0, 7, 14}) {
+    auto unsaid = twistOf(1, 2, 3, 1e-6);
+    unsaid.twist.covariance[axis] = kNaN;
+    EXPECT_DOUBLE_EQ(groundVelocityOf(unsaid, settings)->sigma, settings.session.alignment.ground_velocity_sigma) << axis;
+    for (const double variance : {-1.0, 1e6}) {
+      unsaid.twist.covariance[axis] = variance;
+      EXPECT_FALSE(groundVelocityOf(unsaid, settings)) << axis;
+    }
+  }
+  EXPECT_FALSE(groundVelocityOf(twistOf(kNaN, 0, 0, 0.04), settings));
 }
 
 TEST(InsConversions, DepthsAreBelowTheSurface) {

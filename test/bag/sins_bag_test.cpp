@@ -65,7 +65,7 @@ TEST(SinsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
     EXPECT_LT(differences.position, 1e-5);
     EXPECT_LT(differences.velocity, 1e-6);
     EXPECT_LT(differences.attitude, 1e-7);
-    EXPECT_LT(differences.covariance, 1e-5);
+    EXPECT_LT(differences.covariance, 1e-4);  // the start knows of the way from the attitude to the fix
   }
   std::filesystem::remove_all(folder);
 }

@@ -53,6 +53,7 @@ TEST(InsConfig, TheFileHoldsTheDefaults) {
                             a.position_sigma,
                             a.velocity_sigma,
                             a.rest_velocity_sigma,
+                            a.ground_velocity_sigma,
                             s.session.lag,
                             s.session.max_gap,
                             s.output_rate,

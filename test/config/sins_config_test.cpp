@@ -44,6 +44,7 @@ std::vector<double> numbersOf(const Settings& s) {
                           alignment.velocity_wait,
                           alignment.velocity_sigma,
                           alignment.rest_velocity_sigma,
+                          alignment.ground_velocity_sigma,
                           found.parameters.start_tilt,
                           found.parameters.start_heading,
                           found.imu.period,

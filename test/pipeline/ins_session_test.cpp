@@ -100,18 +100,48 @@ TEST(InsSession, SaysWhatTheStartLacks) {
   EXPECT_EQ(lackOf(without(stream, early), options), Lack::FixAfterAttitude);
 }
 
+/// Where a stream starts.
+Start startOf(const std::vector<Reading>& stream, const SessionOptions& options) {
+  Alignment alignment(options.alignment, options.config.parameters);
+  std::vector<Event> events;
+  for (const auto& reading : stream) alignment.take(reading, events);
+  for (const auto& event : events)
+    if (const auto* start = std::get_if<Start>(&event)) return *start;
+  ADD_FAILURE() << "no start";
+  return {};
+}
+
 TEST(InsSession, AVelocityOfGnssStartsItAsSurelyAsItSays) {
-  // GIVEN no DVL, WHEN GNSS knows the velocity, THEN the start does not wait, and is as sure as GNSS
-  const Scenario scenario = surveyOf(20);
-  auto stream = without(streamOf(scenario, 1), [](const Reading& r) { return isOf(r, Sensor::Dvl); });
-  const TruthSample truth = Trajectory(scenario.track, scenario.duration).at(0.9);
-  const Vector<3> turning = truth.rate_nav_body.cross(scenario.parameters.gps_lever_body);
-  const GroundVelocity velocity{kEpoch + stampFromSeconds(0.9), truth.state.velocity_nav + truth.state.q_nav_body * turning, 0.05};
-  stream.insert(std::find_if(stream.begin(), stream.end(), [&](const Reading& r) { return stampOf(r) >= velocity.stamp; }), velocity);
-  const Output output = settled(stream, optionsOf(scenario));
-  EXPECT_EQ(output.solutions.front().stamp, kEpoch + kNanosecondsPerSecond);
-  EXPECT_NEAR(std::sqrt((*output.solutions.front().covariance)(kVelocity, kVelocity)), 0.05, 0.005);
-  EXPECT_LT((output.solutions.front().state.velocity_nav - truth.state.velocity_nav).norm(), 0.1) << "the waves of a tenth of a second";
+  // GIVEN GNSS that knows the velocity at the moment of its fix, WHEN there is a DVL or none, THEN the start has GNSS's, in time order after all
+  const Scenario scenario = surveyOf(3);
+  const GroundVelocity velocity{kEpoch + kNanosecondsPerSecond, Vector<3>(1, 2, 3), 0.07};
+  for (const bool with_dvl : {true, false}) {
+    auto stream = without(streamOf(scenario, 1), [&](const Reading& r) { return !with_dvl && isOf(r, Sensor::Dvl); });
+    const auto before = [&](const Reading& r) { return placeOf(r) < placeOf(Reading(velocity)); };
+    stream.insert(std::find_if_not(stream.begin(), stream.end(), before), velocity);
+    const Start start = startOf(stream, optionsOf(scenario));
+    EXPECT_EQ(start.parameters.start_velocity, 0.07);
+    const Vector<3> of_lever = velocity.velocity_nav - start.state.velocity_nav;  // the antenna turns about the INS
+    EXPECT_LT(of_lever.norm(), 0.5);
+    EXPECT_GT(of_lever.norm(), 0);
+  }
+}
+
+TEST(InsSession, AFixThatOnlyStartsItIsAsSureAsItsLeverArmLets) {
+  const Scenario scenario = surveyOf(3);
+  auto options = optionsOf(scenario);
+  options.alignment.fixes_aid = false;
+  auto stream = streamOf(scenario, 1);
+  const auto heading = [&](double sigma) {
+    for (auto& reading : stream)
+      if (auto* inertial = std::get_if<InertialReading>(&reading)) inertial->attitude->heading_sigma = sigma;
+    return startOf(stream, options).parameters.start_position;
+  };
+  const Parameters& p = scenario.parameters;
+  EXPECT_LT((heading(1e-6) - p.gps_white).norm(), 0.01);
+  const double across = p.gps_lever_body.head<2>().norm();
+  EXPECT_NEAR(heading(0.5).x(), std::hypot(p.gps_white.x(), 0.5 * across), 0.1) << "30 degrees of heading turn the lever arm, which also tilts";
+  EXPECT_NEAR(heading(0.5).z(), p.gps_white.z(), 0.01);
 }
 
 TEST(InsSession, WithoutBottomLockItStartsAtRestAndFindsItsVelocity) {

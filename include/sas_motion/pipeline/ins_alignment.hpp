@@ -25,12 +25,13 @@ using Event = std::variant<Start, Aiding, ImuReading, Audit>;
 Audit refusal(const Aiding& reading, Verdict verdict, const char* reason);
 
 struct AlignmentOptions {
-  double max_age = 1;              ///< of attitude and velocity when a fix comes [s]
-  double velocity_wait = 10;       ///< for the velocity; then the body is taken to be at rest [s]
-  bool fixes_aid = true;           ///< else they only start the INS, which is as sure of its position as the fix
-  double position_sigma = 30;      ///< far more than a fix is off by: the fix itself, fused at once, says how sure the position is [m]
-  double velocity_sigma = 1;       ///< the same of the DVL's velocity [m/s]
-  double rest_velocity_sigma = 5;  ///< where there is no DVL [m/s]
+  double max_age = 1;                   ///< of attitude and velocity when a fix comes [s]
+  double velocity_wait = 10;            ///< for the velocity; then the body is taken to be at rest [s]
+  bool fixes_aid = true;                ///< else they only start the INS, which is as sure of its position as the fix
+  double position_sigma = 30;           ///< far more than a fix is off by: the fix itself, fused at once, says how sure the position is [m]
+  double velocity_sigma = 1;            ///< the same of the DVL's velocity [m/s]
+  double rest_velocity_sigma = 5;       ///< where there is no DVL [m/s]
+  double ground_velocity_sigma = 0.05;  ///< of GNSS's velocity where it states none [m/s]
 };
 
 /// Finds the first moment to start at: a fix that comes after an attitude and a velocity. Takes readings in time order, passes them on once
@@ -58,6 +59,7 @@ class Alignment {
   std::optional<Start> startAt(const Aiding& fix);
   /// Of GNSS, else of the DVL, else of a body at rest; false where there is none and it is worth waiting for one.
   bool setVelocity(const Aiding& fix, Start& start) const;
+  Vector<3> positionSigma(const Aiding& fix, const Start& start) const;
   bool fresh(Stamp stamp, const Aiding& fix) const { return secondsBetween(stamp, fix.stamp) <= options_.max_age; }
 
   AlignmentOptions options_;

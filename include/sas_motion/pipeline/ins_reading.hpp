@@ -37,11 +37,12 @@ inline Stamp stampOf(const Reading& reading) {
   return aiding ? aiding->stamp : std::get<GroundVelocity>(reading).stamp;
 }
 
-/// The place of a reading among those that come in any order: by time, at one stamp by sensor, and the inertial unit last, since it integrates
-/// up to its stamp.
+/// The place of a reading among those that come in any order: by time; at one stamp first the velocity, which the fix finds then, the others by sensor,
+/// and the inertial unit last, since it integrates up to its stamp.
 inline std::tuple<Stamp, std::size_t> placeOf(const Reading& reading) {
+  if (std::holds_alternative<GroundVelocity>(reading)) return {stampOf(reading), 0};
   const auto* aiding = std::get_if<Aiding>(&reading);
-  return {stampOf(reading), aiding ? static_cast<std::size_t>(aiding->sensor) : kSensors + reading.index()};
+  return {stampOf(reading), 1 + (aiding ? static_cast<std::size_t>(aiding->sensor) : kSensors)};
 }
 
 }  // namespace sas_motion::ins

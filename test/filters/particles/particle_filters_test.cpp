@@ -121,6 +121,24 @@ TEST(ParticleFilters, ScatteredParticlesHaveTheNoiseBesideWhatTheyHad) {
   EXPECT_LT(testing::relativeDifference(covarianceOf(ssSrupf<2>(options(1))), sum), 1e-12);
 }
 
+TEST(ParticleFilters, ScatteredPointsCountTheirNoiseOnce) {
+  // GIVEN points scattered as wide as a whole prediction would draw them, WHEN z is read, THEN the answer is the Kalman filter's of the same noise
+  const Walk walk;
+  const Matrix<2> wide = (Matrix<2>() << 1.5, 0, 0, 0.5).finished();
+  auto filter = ssSrupf<2>(options(20000), Weighting::OptimalProposal);
+  EXPECT_TRUE(filter.start({}));
+  filter.scatter(wide);
+  filter.predict([&](const Vector<2>& x) { return walk.move(x); }, walk.Q_root);
+  Gaussian<2> exact{Vector<2>::Zero(), Matrix<2>::Identity() + wide * wide.transpose()};
+  exact = predictGaussian<2>(exact, {walk.F * exact.mean, walk.F, walk.Q_root * walk.Q_root.transpose()});
+  const Vector<1> z(1.5);
+  exact = KalmanFilter<2>().update(exact, LinearMeasurement<2, 1>{Vector<1>(z - walk.H * exact.mean), walk.H, walk.R}).belief;
+  filter.update(
+      z, [&](const Vector<2>& x) { return walk.read(x); }, walk.R);
+  EXPECT_LT((filter.belief().mean - exact.mean).norm(), 0.05);
+  EXPECT_LT(testing::relativeDifference(filter.belief().covariance, exact.covariance), 0.05);
+}
+
 TEST(ParticleFilters, OneParticleIsItsFilterAlone) {
   const auto alone = [](std::uint64_t seed) { return ssSrupf<2>(options(1, seed)); };
   const Distance distance = distanceFromTheKalmanFilter(alone, 3);

@@ -121,7 +121,10 @@ class Crowd {
   /// is or one of several.
   template <int M, class Renew>
   void weigh(ParticleUpdate<M>& update, const Renew& renew) {
-    if (!weights_.normalise()) update.verdict = Verdict::Invalid;
+    if (!weights_.normalise()) {
+      update.verdict = Verdict::Invalid;
+      return;
+    }
     update.effective_size = weights_.effectiveSize();
     update.resampled = update.effective_size < options_.resample_below * static_cast<double>(size());
     if (!update.resampled) return;

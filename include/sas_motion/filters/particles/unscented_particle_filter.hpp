@@ -84,7 +84,7 @@ class UnscentedParticleFilter {
       else
         move(particle, particle.belief.mean + root * crowd_.template gaussians<N>(i));
     });
-    addSquares<N, N>(noise_root_, root);
+    if (crowd_.size() == 1) addSquares<N, N>(noise_root_, root);
   }
 
   /// After reading z = h(x) + v, v ~ N(0, R).
