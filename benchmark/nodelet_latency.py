@@ -4,7 +4,7 @@
 """How long the filter nodelets take from callback to publication at 100 messages a second, by their own diagnostics.
 
 Alone: the nodelet (kf and robust_kf), rosbag play, and a recorder of both odometries. Together: compare.launch, which adds the smoother in the
-same manager and a recorder of everything. Ins: the nodelet of INS, GPS and DVL (robust_ckf27) alone. usage: nodelet_latency.py TOOLS OUT SECONDS [RUNS]
+same manager and a recorder of everything. Ins, sins: the nodelet of INS, GPS and DVL (robust_ckf27), of SINS and DVL (ss_srupf), alone. usage: nodelet_latency.py TOOLS OUT SECONDS [RUNS]
 """
 import contextlib
 import os
@@ -23,6 +23,7 @@ SCENARIO = 'config/scenarios/survey_outliers_10.yaml'
 RATE = 100 / 16.0  # the scenario has 16 messages a second
 ESTIMATORS = '[kf, robust_kf]'
 INS_SCENARIO = 'config/scenarios/ins/survey.yaml'  # 107 messages a second
+SINS_SCENARIO = 'config/scenarios/sins_dvl/large_angle.yaml'  # 102 messages a second, of which two move 1200 particles
 KEYS = ('callback to publication p50 [ms]', 'callback to publication p99 [ms]', 'whole callback p99 [ms]')
 
 
@@ -64,34 +65,36 @@ def names(master, kind):
     return set()
 
 
-def last_diagnostics(bag):
+def last_diagnostics(bag, estimator):
+    """Those of the nodelet that runs the estimator."""
     values = {}
     with rosbag.Bag(bag) as live:
         for _, message, _ in live.read_messages(topics=['/diagnostics']):
             for status in message.status:
                 found = {v.key: v.value for v in status.values}
-                if any(key.startswith('robust_') for key in found):
+                if any(key.startswith(f'{estimator} ') for key in found):
                     values = found
     return [float(values[key]) for key in KEYS]
 
 
-def alone(bag, recorded, kind='FilterNodelet', estimators=ESTIMATORS, rate=RATE):
+def alone(bag, recorded, kind='FilterNodelet', estimators=ESTIMATORS, rate=RATE, config=''):
     """Of a nodelet by itself."""
-    odometries = [f'/{name.strip()}/odometry' for name in estimators.strip('[]').split(',')]
+    names_of_estimators = [name.strip() for name in estimators.strip('[]').split(',')]
+    odometries = [f'/{name}/odometry' for name in names_of_estimators]
     port = new_master()
     with running('roscore', '-p', port):
         master = rosgraph.Master('/nodelet_latency')
         wait_until(master.is_online)
-        subprocess.run(['rosparam', 'set', '/filters', f'{{estimators: {estimators}}}'], check=True)
+        subprocess.run(['rosparam', 'set', '/filters', f'{{estimators: {estimators}, config: "{config}"}}'], check=True)
         with running('rosrun', 'nodelet', 'nodelet', 'standalone', f'sas_motion/{kind}', '__name:=filters'):
             wait_until(lambda: '/filters/reset' in names(master, 2))
             with running('rosbag', 'record', '--buffsize=0', '-O', recorded, '/diagnostics', *odometries):
                 wait_until(lambda: odometries[0] in names(master, 1))
-                subprocess.run(['rosbag', 'play', '--quiet', '--delay=2', f'--rate={rate}', bag, '--topics', 'gnss/fix', 'imu/data', 'dvl/twist', 'depth/pose',
+                subprocess.run(['rosbag', 'play', '--quiet', '--delay=2', f'--rate={rate}', bag, '--topics', 'gnss/fix', 'imu/data', 'dvl/twist', 'depth/pose', 'gnss/velocity',
                                 '/tf_static'],
                                check=True, stdout=subprocess.DEVNULL)
                 time.sleep(2)
-    return last_diagnostics(recorded)
+    return last_diagnostics(recorded, names_of_estimators[-1])
 
 
 def together(bag, recorded):
@@ -99,7 +102,7 @@ def together(bag, recorded):
     launch = quietly('roslaunch', '--port', port, 'sas_motion', 'compare.launch', f'bag:={bag}', f'output:={recorded}', f'rate:={RATE}', f'filters:={ESTIMATORS}')
     if launch.wait() != 0:
         sys.exit('nodelet_latency: compare.launch failed')
-    return last_diagnostics(recorded)
+    return last_diagnostics(recorded, 'robust_kf')
 
 
 def main():
@@ -108,13 +111,17 @@ def main():
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     bag = f'{out}/latency.bag'
     subprocess.run([f'{tools}/simulate', f'{root}/{SCENARIO}', '-o', bag, '--duration', str(seconds * RATE)], check=True)
-    ins_bag = f'{out}/latency_ins.bag'
-    subprocess.run([f'{tools}/simulate', f'{root}/{INS_SCENARIO}', '-o', ins_bag, '--duration', str(seconds)], check=True)
+    ins_bag, sins_bag = f'{out}/latency_ins.bag', f'{out}/latency_sins.bag'
+    for scenario, file in ((INS_SCENARIO, ins_bag), (SINS_SCENARIO, sins_bag)):
+        subprocess.run([f'{tools}/simulate', f'{root}/{scenario}', '-o', file, '--duration', str(seconds)], check=True)
 
     def ins(_, recorded):
         return alone(ins_bag, recorded, 'InsFilterNodelet', '[robust_ckf27]', 1)
 
-    for measure in (alone, together, ins):
+    def sins(_, recorded):
+        return alone(sins_bag, recorded, 'InsFilterNodelet', '[ss_srupf]', 1, f'{root}/config/sins_dvl.yaml')
+
+    for measure in (alone, together, ins, sins):
         found = [measure(bag, f'{out}/latency_of_{measure.__name__}.bag') for _ in range(runs)]
         for key, values in zip(KEYS, zip(*found)):
             print(f'{measure.__name__:<10}{key:<36} best {min(values):.3f}  typical {statistics.median(values):.3f}  worst {max(values):.3f}')
