@@ -3,7 +3,7 @@
 """The tables of the page."""
 from html import escape
 
-from .columns import PAGE, best, number, outside, percent, quantity, text, value
+from .columns import ALIGNMENT, PAGE, best, number, outside, percent, quantity, text, value
 from .inputs import SENSORS, dig, ranked
 
 STATES = ('position', 'height', 'velocity', 'heading', 'tilt', 'speed', 'current')
@@ -31,8 +31,8 @@ def results(metrics):
     columns = [c for c in PAGE if any(value(e, c) is not None for _, e in ranked(metrics))]
     header = ['estimator'] + [f'{c.title}<br><small>{c.unit}</small>' for c in columns]
     rows = [[escape(name)] + results_row(metrics, e, columns) for name, e in ranked(metrics)]
-    caption = ('RMSE; 95th percentile and largest of the position error; drift: error at the end over distance; aligned: when the heading came within 2° for '
-               'good; particles: effective number, the median. <span class="best">Best</span> in bold.')
+    alignment = ' aligned: when the heading came within 2° for good; particles: effective number, the median;' if set(columns) & set(ALIGNMENT) else ''
+    caption = f'RMSE; 95th percentile and largest of the position error; drift: error at the end over distance;{alignment} <span class="best">best</span> in bold.'
     return table(caption, header, rows, 'results')
 
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "sas_motion/bag/reprocess.hpp"
@@ -137,8 +138,9 @@ class InsSystem final : public ReprocessSystem {
   explicit InsSystem(const std::string& config) : settings_(InsSettings::fromFile(config)) {}
 
   void require(const std::string& estimator) const override {
-    if (!settings_.make(estimator, settings_.estimation.session.config))
-      throw std::runtime_error(fmt::format("'{}' is no estimator of this system; known are {}", estimator, fmt::join(settings_.estimators, ", ")));
+    const auto& known = settings_.estimators;
+    if (std::find(known.begin(), known.end(), estimator) == known.end())
+      throw std::runtime_error(fmt::format("'{}' is no estimator of this system; known are {}", estimator, fmt::join(known, ", ")));
   }
   std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file, const std::vector<std::string>& estimators,
                                 const RunOutput& out) const override {

@@ -26,9 +26,10 @@ InsServer::InsServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : 
   readParameter(own_, "idle_timeout", idle_timeout_);
   names_ = {settings_.preferred};
   readParameter(own_, "estimators", names_);
+  const auto& known = settings_.estimators;
   for (const auto& name : names_) {
-    if (!settings_.make(name, settings_.estimation.session.config))
-      throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name, fmt::join(settings_.estimators, ", ")));
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name, fmt::join(known, ", ")));
     if (std::count(names_.begin(), names_.end(), name) > 1) throw ConfigError(fmt::format("~estimators: '{}' is there twice; name each once", name));
     const OutputRate rate(settings_.estimation.output_rate);
     lanes_.push_back({name,

@@ -70,7 +70,7 @@ std::vector<Outage> outages(const Recording& recording, const RecordedEstimator&
 /// One estimator scored: its metrics, and its scored trajectory beside truth in TUM files.
 class Judge {
  public:
-  Judge(const Recording& recording, const Options& options) : recording_(recording), options_(options) {}
+  Judge(const Recording& recording, const Options& options) : recording_(recording), options_(options), begins_off_(beginsOff()) {}
 
   json metrics(const std::string& name, const RecordedEstimator& estimator, const json& cost) const {
     Scorer scorer(options_.aperture);
@@ -93,7 +93,7 @@ class Judge {
     json m = describe(scorer.scores(), outages(recording_, estimator), cost);
     addMotions(motions.scores(), m);
     addAudits(estimator, from, m);
-    if (const json alignment = alignmentOf(estimator); !alignment.is_null()) m["alignment"] = alignment;
+    if (const json alignment = begins_off_ ? alignmentOf(estimator) : json(); !alignment.is_null()) m["alignment"] = alignment;
     return m;
   }
 
@@ -129,18 +129,34 @@ class Judge {
     }
   }
 
+  /// How far the heading of an estimate is off [deg], where that is known.
+  std::optional<double> headingOff(const Estimate& estimate) const {
+    const auto truth = recording_.truthAt(estimate.stamp);
+    if (!truth || !truth->heading_known || !(estimate.belief.covariance(kHeading, kHeading) < kNotEstimated)) return std::nullopt;
+    return std::abs(Model::difference(estimate.belief.mean, truth->state)(kHeading)) / kRadPerDeg;
+  }
+
+  /// Whether any estimator begins with a heading to be found: else nobody asks when it is aligned.
+  bool beginsOff() const {
+    const auto off = [&](const auto& named) {
+      const auto& estimates = named.second.estimates;
+      return !estimates.empty() && headingOff(estimates.front()).value_or(0) > kAligned;
+    };
+    return std::any_of(recording_.estimators.begin(), recording_.estimators.end(), off);
+  }
+
   /// When the heading, skipped or not, came within kAligned for good: 0 where it always was, null where it did not.
   json alignmentOf(const RecordedEstimator& estimator) const {
-    std::optional<double> last_off, last;
+    double last_off = 0;
+    std::optional<double> last;
     for (const auto& estimate : estimator.estimates) {
-      const auto truth = recording_.truthAt(estimate.stamp);
-      if (!truth || !truth->heading_known || !(estimate.belief.covariance(kHeading, kHeading) < kNotEstimated)) continue;
+      const auto off = headingOff(estimate);
+      if (!off) continue;
       last = secondsBetween(recording_.begin, estimate.stamp);
-      if (std::abs(Model::difference(estimate.belief.mean, truth->state)(kHeading)) > kAligned * kRadPerDeg) last_off = last;
+      if (*off > kAligned) last_off = *last;
     }
     if (!last) return nullptr;
-    const double after = last_off.value_or(0);
-    return {{"within_deg", kAligned}, {"after", !last_off || *last - after >= kAlignedFor ? json(after) : json(nullptr)}};
+    return {{"within_deg", kAligned}, {"after", last_off == 0 || *last - last_off >= kAlignedFor ? json(last_off) : json(nullptr)}};
   }
 
   /// What became of each sensor's measurements.
@@ -178,6 +194,7 @@ class Judge {
 
   const Recording& recording_;
   const Options& options_;
+  bool begins_off_;
 };
 
 /// Named columns that grow by rows and are thinned to what a plot can show.
@@ -268,13 +285,6 @@ json costOf(const std::string& bag, const std::string& name) {
   return {{"seconds", seconds}, {"microseconds_per_update", 1e6 * seconds / measurements}, {"times_real_time", duration / seconds}};
 }
 
-/// Where all were aligned throughout, as mostly, nobody asks when.
-void forgetWhatNeverMattered(json& estimators) {
-  const auto always = [](const json& e) { return !e.contains("alignment") || e["alignment"]["after"] == 0.0; };
-  if (!std::all_of(estimators.begin(), estimators.end(), always)) return;
-  for (auto& estimator : estimators) estimator.erase("alignment");
-}
-
 void run(const Options& options) {
   const Recording recording = Recording::read(options.bag);
   makeFolder(options.out);
@@ -289,7 +299,6 @@ void run(const Options& options) {
                {"distance", distance},
                {"skipped", options.skip}};
   for (const auto& [name, estimator] : recording.estimators) metrics["estimators"][name] = judge.metrics(name, estimator, costOf(options.bag, name));
-  forgetWhatNeverMattered(metrics["estimators"]);
   writeFile(options.out + "/series.json", seriesOf(recording).dump());
   writeFile(options.out + "/metrics.json", metrics.dump(2) + "\n");
 }

@@ -30,13 +30,7 @@ TEST(InsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
     const auto solutions = ins::testing::settled(ins::testing::streamOf(scenario, 7), ins::testing::optionsOf(scenario), name).solutions;
     ASSERT_EQ(messages.size(), solutions.size());
     ASSERT_GT(messages.size(), 5800u);
-    const Differences differences = differencesBetween(messages, solutions, frame);
-    std::cout << name << ": " << differences.position << " m, " << differences.velocity << " m/s, " << differences.attitude << ", covariance "
-              << differences.covariance << "\n";
-    EXPECT_LT(differences.position, 1e-6);
-    EXPECT_LT(differences.velocity, 1e-8);
-    EXPECT_LT(differences.attitude, 1e-10);
-    EXPECT_LT(differences.covariance, 1e-8);
+    expectBelow(name, differencesBetween(messages, solutions, frame), {1e-6, 1e-8, 1e-10, 1e-8});
   }
   std::filesystem::remove_all(folder);
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,15 @@ inline Differences differencesBetween(const std::vector<nav_msgs::Odometry>& mes
     note(most.covariance, messages[i].pose.covariance[0] / expected.pose.covariance[0] - 1);
   }
   return most;
+}
+
+/// Says what the largest differences of an estimator are, and expects each below its bound.
+inline void expectBelow(const std::string& estimator, const Differences& found, const Differences& bound) {
+  std::cout << estimator << ": " << found.position << " m, " << found.velocity << " m/s, " << found.attitude << ", covariance " << found.covariance << "\n";
+  EXPECT_LT(found.position, bound.position) << estimator;
+  EXPECT_LT(found.velocity, bound.velocity) << estimator;
+  EXPECT_LT(found.attitude, bound.attitude) << estimator;
+  EXPECT_LT(found.covariance, bound.covariance) << estimator;
 }
 
 }  // namespace sas_motion::ros_side

@@ -59,13 +59,7 @@ TEST(SinsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
     const auto solutions = inMemory(scenario, 7, name, 100);
     ASSERT_EQ(messages.size(), solutions.size());
     ASSERT_EQ(messages.size(), static_cast<std::size_t>(100 * kSeconds));
-    const Differences differences = differencesBetween(messages, solutions, frame);
-    std::cout << name << ": " << differences.position << " m, " << differences.velocity << " m/s, " << differences.attitude << ", covariance "
-              << differences.covariance << "\n";
-    EXPECT_LT(differences.position, 1e-5);
-    EXPECT_LT(differences.velocity, 1e-6);
-    EXPECT_LT(differences.attitude, 1e-7);
-    EXPECT_LT(differences.covariance, 1e-4);  // the start knows of the way from the attitude to the fix
+    expectBelow(name, differencesBetween(messages, solutions, frame), {1e-5, 1e-6, 1e-7, 1e-4});  // the start knows of the way from the attitude to the fix
   }
   std::filesystem::remove_all(folder);
 }

@@ -147,3 +147,9 @@ def test_one_particle_does(tow, tmp_path):
 def test_unknown_estimators_are_refused(tow, few, tmp_path):
     done = toolbox.run("reprocess", tow, "-o", tmp_path / "out", "--estimators", "kf", "--config", few)
     assert done.returncode == 1 and "'kf' is no estimator of this system" in done.stderr and "ss_srupf" in done.stderr
+
+
+def test_nobody_asks_a_towfish_when_it_was_aligned(simulated, tmp_path):
+    towfish = toolbox.reprocess(simulated, tmp_path / "out", ["kf"])
+    assert "aligned" not in toolbox.succeed("evaluate.py", towfish, "-o", tmp_path / "report")
+    assert "aligned" not in (tmp_path / "report" / "report.html").read_text().split("<script")[0]
