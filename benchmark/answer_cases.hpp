@@ -29,7 +29,9 @@ json rows(const Eigen::MatrixBase<Derived>& A) {
   return result;
 }
 
-inline json described(const Belief& belief) { return {{"mean", rows(belief.mean)}, {"covariance", rows(belief.covariance)}}; }
+inline json described(const Belief& belief) {
+  return {{"mean", rows(belief.mean)}, {"covariance", rows(belief.covariance)}};
+}
 
 /// Constant velocity in three dimensions; the sensors see the position and, as a log does, a component of the velocity.
 struct Linear {
@@ -67,7 +69,9 @@ struct Towfish {
     Q = model.transition(start.mean, {kTurnRate}, kDt).Q;  // frozen, so that f and Q are given once
   }
   State f(const State& x) const { return model.predict(x, {kTurnRate}, kDt); }
-  Reading h(const State& x) const { return (Reading() << towfish::Model::expected(arm, x), x(towfish::kHeading), x(towfish::kSpeed)).finished(); }
+  Reading h(const State& x) const {
+    return (Reading() << towfish::Model::expected(arm, x), x(towfish::kHeading), x(towfish::kSpeed)).finished();
+  }
   Transition<6> transition(const State& x) const { return {f(x), model.transition(x, {kTurnRate}, kDt).F, Q}; }
   LinearMeasurement<6, 4> linearized(const Reading& z, const State& x) const {
     LinearMeasurement<6, 4> linear{z - h(x), Matrix<4, 6>::Zero(), R};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Data, models and what our Kalman, cubature and unscented filters make of them, as JSON for benchmark/cross_check.py, which gives the same to other
-// people's code. usage: filter_answers [STEPS]
+// Data, models and what our Kalman, cubature and unscented filters make of them, as JSON for benchmark/cross_check.py,
+// which gives the same to other people's code. usage: filter_answers [STEPS]
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -18,7 +18,8 @@ namespace {
 using namespace sas_motion;
 using namespace sas_motion::benchmark;
 
-// alpha = 1e-3, the textbook's, has weights of 1e6: every implementation then loses six digits, and the comparison would be of rounding.
+// alpha = 1e-3, the textbook's, has weights of 1e6: every implementation then loses six digits, and the comparison
+// would be of rounding.
 constexpr UnscentedOptions kUnscented{0.5, 2, 0};
 
 template <class Case>
@@ -51,7 +52,8 @@ Step kalman(const Case& problem, const Belief& belief, const Reading& z) {
 }
 
 template <int Count, class Case>
-Step sigmaPoints(const SigmaPointFilter<6, Count>& filter, const Case& problem, const Belief& belief, const Reading& z) {
+Step sigmaPoints(const SigmaPointFilter<6, Count>& filter, const Case& problem, const Belief& belief,
+                 const Reading& z) {
   const auto f = [&](const State& x) { return problem.f(x); };
   const auto h = [&](const State& x) { return problem.h(x); };
   const auto prior = filter.predict(belief, f, problem.Q).value();
@@ -74,10 +76,14 @@ json answers(const Belief& start, const std::vector<Reading>& all, Function step
     const auto begin = std::chrono::steady_clock::now();
     belief = start;
     for (const auto& z : all) belief = step(belief, z).posterior;
-    fastest = std::min(fastest, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());
+    fastest =
+        std::min(fastest, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());
   }
   const double checksum = belief.mean.sum();  // used, so that the loop above is not left out
-  return {{"priors", priors}, {"posteriors", posteriors}, {"ns_per_step", fastest / static_cast<double>(all.size())}, {"checksum", checksum}};
+  return {{"priors", priors},
+          {"posteriors", posteriors},
+          {"ns_per_step", fastest / static_cast<double>(all.size())},
+          {"checksum", checksum}};
 }
 
 template <class Case>
@@ -91,9 +97,12 @@ json solved(const Case& problem, int steps) {
   result["start"] = described(problem.start);
   result["readings"] = json::array();
   for (const auto& z : all) result["readings"].push_back(rows(z));
-  result["filters"] = {{"kf", answers(problem.start, all, [&](const Belief& b, const Reading& z) { return kalman(problem, b, z); })},
-                       {"ckf", answers(problem.start, all, [&](const Belief& b, const Reading& z) { return sigmaPoints(ckf, problem, b, z); })},
-                       {"ukf", answers(problem.start, all, [&](const Belief& b, const Reading& z) { return sigmaPoints(ukf, problem, b, z); })}};
+  result["filters"] = {
+      {"kf", answers(problem.start, all, [&](const Belief& b, const Reading& z) { return kalman(problem, b, z); })},
+      {"ckf",
+       answers(problem.start, all, [&](const Belief& b, const Reading& z) { return sigmaPoints(ckf, problem, b, z); })},
+      {"ukf", answers(problem.start, all,
+                      [&](const Belief& b, const Reading& z) { return sigmaPoints(ukf, problem, b, z); })}};
   return result;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Predict and update of all four channels: our filters beside a bare Eigen step written for this one case and OpenCV's filter.
+// Predict and update of all four channels: our filters beside a bare Eigen step written for this one case and OpenCV's
+// filter.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Cholesky>
@@ -102,7 +103,9 @@ void openCv(benchmark::State& state) {
       for (int j = 0; j < 4; ++j) filter.measurementNoiseCov.at<double>(i, j) = z.R(i, j);
     }
     const cv::Mat& predicted = filter.predict();
-    for (int i = 0; i < 4; ++i) measurement.at<double>(i) = z.innovation(i) + (z.H.row(i) * Eigen::Map<const StateVector>(predicted.ptr<double>()))(0);
+    for (int i = 0; i < 4; ++i)
+      measurement.at<double>(i) =
+          z.innovation(i) + (z.H.row(i) * Eigen::Map<const StateVector>(predicted.ptr<double>()))(0);
     filter.correct(measurement);
     benchmark::DoNotOptimize(filter.statePost);
   }
@@ -122,10 +125,12 @@ using Calibrated = CalibratedFilter<Filter, kStates>;
 BENCHMARK(bareEigen)->Name("bare_eigen");
 BENCHMARK_CAPTURE(ours, kf, KalmanFilter<kStates>())->Name("kf");
 BENCHMARK_CAPTURE(ours, gated_kf, GatedKalmanFilter<kStates>({}))->Name("gated_kf");
-BENCHMARK_CAPTURE(ours, robust_kf, Calibrated<RobustKalmanFilter<kStates>>(RobustKalmanFilter<kStates>({})))->Name("robust_kf");
+BENCHMARK_CAPTURE(ours, robust_kf, Calibrated<RobustKalmanFilter<kStates>>(RobustKalmanFilter<kStates>({})))
+    ->Name("robust_kf");
 BENCHMARK_CAPTURE(ours, robust_kf_not_calibrated, RobustKalmanFilter<kStates>({}))->Name("robust_kf_not_calibrated");
 BENCHMARK_CAPTURE(ours, robust_kf_one_pass, RobustKalmanFilter<kStates>(onePass()))->Name("robust_kf_one_pass");
-BENCHMARK_CAPTURE(ours, student_t_kf, Calibrated<StudentTKalmanFilter<kStates>>(StudentTKalmanFilter<kStates>({})))->Name("student_t_kf");
+BENCHMARK_CAPTURE(ours, student_t_kf, Calibrated<StudentTKalmanFilter<kStates>>(StudentTKalmanFilter<kStates>({})))
+    ->Name("student_t_kf");
 BENCHMARK_CAPTURE(ours, mixture_kf, MixtureKalmanFilter<kStates>({}))->Name("mixture_kf");
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Readings, models and what our bootstrap filter makes of them with many seeds, as JSON for benchmark/compare_particles.py, which gives the same to other
-// people's code. usage: particle_answers RUNS PARTICLES...
+// Readings, models and what our bootstrap filter makes of them with many seeds, as JSON for
+// benchmark/compare_particles.py, which gives the same to other people's code. usage: particle_answers RUNS
+// PARTICLES...
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
@@ -37,8 +38,8 @@ std::vector<Vector<Case::kRows>> readings(const Case& problem) {
   return all;
 }
 
-/// Means and variances after each reading, a list a run, and the processor's nanoseconds a step; `told` times the noise of the process is what the filter
-/// is told of it.
+/// Means and variances after each reading, a list a run, and the processor's nanoseconds a step; `told` times the noise
+/// of the process is what the filter is told of it.
 template <class Case>
 json answers(const Case& problem, const std::vector<Vector<Case::kRows>>& all, int particles, int runs, double told) {
   const auto Q_root = choleskyLower<Case::kStates>(told * problem.Q).value();
@@ -68,16 +69,22 @@ json answers(const Case& problem, const std::vector<Vector<Case::kRows>>& all, i
     means.push_back(of_means);
     variances.push_back(of_variances);
   }
-  return {{"particles", particles}, {"means", means}, {"variances", variances}, {"ns_per_step", 1e9 * seconds / (runs * static_cast<double>(all.size()))}};
+  return {{"particles", particles},
+          {"means", means},
+          {"variances", variances},
+          {"ns_per_step", 1e9 * seconds / (runs * static_cast<double>(all.size()))}};
 }
 
 template <class Case>
 json solved(int runs, const std::vector<int>& particles) {
   const Case problem;
   const auto all = readings(problem);
-  json result{{"name", Case::kName},       {"start", {{"mean", rows(problem.start.mean)}, {"covariance", rows(problem.start.covariance)}}},
-              {"Q", rows(problem.Q)},      {"R", rows(problem.R)},
-              {"readings", json::array()}, {"answers", json::array()},
+  json result{{"name", Case::kName},
+              {"start", {{"mean", rows(problem.start.mean)}, {"covariance", rows(problem.start.covariance)}}},
+              {"Q", rows(problem.Q)},
+              {"R", rows(problem.R)},
+              {"readings", json::array()},
+              {"answers", json::array()},
               {"misled", json::array()}};
   for (const auto& z : all) result["readings"].push_back(rows(z));
   constexpr double kMisled = 1.2;  // a filter that is told so much of the noise is to be found out

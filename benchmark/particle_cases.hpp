@@ -11,7 +11,8 @@
 
 namespace sas_motion::benchmark {
 
-/// The univariate growth model: x_k = x/2 + 25 x / (1 + x^2) + 8 cos(1.2 k) + w, z = x^2/20 + v. The square hides the sign of x. [Gordon1993, sec. 4.1]
+/// The univariate growth model: x_k = x/2 + 25 x / (1 + x^2) + 8 cos(1.2 k) + w, z = x^2/20 + v. The square hides the
+/// sign of x. [Gordon1993, sec. 4.1]
 struct Growth {
   static constexpr int kStates = 1, kRows = 1, kSteps = 50;
   static constexpr const char* kName = "growth";
@@ -26,8 +27,9 @@ struct Growth {
   Matrix<1> Q{10}, R{1};
 };
 
-/// A target that passes an observer at the origin, who sees its bearing alone: x = east, its velocity, north, its velocity; constant velocity with white
-/// acceleration. [Gordon1993, sec. 4.2], with a sharper start and a blunter sensor, so that a thousand particles are enough.
+/// A target that passes an observer at the origin, who sees its bearing alone: x = east, its velocity, north, its
+/// velocity; constant velocity with white acceleration. [Gordon1993, sec. 4.2], with a sharper start and a blunter
+/// sensor, so that a thousand particles are enough.
 struct Bearings {
   static constexpr int kStates = 4, kRows = 1, kSteps = 24;
   static constexpr const char* kName = "bearings";

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A step of the particle filters of SINS and DVL, a prediction over a second and a reading of DVL and depth, with vector instructions and without; and
-// how much faster than real time the whole estimator is at 100 Hz and 1 Hz. All run second by second in turns, so that they meet the same neighbours on
-// the machine, and figures are medians over the seconds. usage: particle_speed CONFIG_FOLDER [SECONDS] [PARTICLES]
+// A step of the particle filters of SINS and DVL, a prediction over a second and a reading of DVL and depth, with
+// vector instructions and without; and how much faster than real time the whole estimator is at 100 Hz and 1 Hz. All
+// run second by second in turns, so that they meet the same neighbours on the machine, and figures are medians over the
+// seconds. usage: particle_speed CONFIG_FOLDER [SECONDS] [PARTICLES]
 #include <fmt/format.h>
 
 #include <chrono>
@@ -59,7 +60,8 @@ class Runner {
   void runTo(double time) {
     Time step{}, second{};
     for (; next_ < recording_.imu.size() && secondsBetween(0, recording_.imu[next_].stamp) <= time + 1e-6; ++next_) {
-      for (; next_aiding_ != recording_.aiding.end() && next_aiding_->reading.stamp <= recording_.imu[next_].stamp; ++next_aiding_)
+      for (; next_aiding_ != recording_.aiding.end() && next_aiding_->reading.stamp <= recording_.imu[next_].stamp;
+           ++next_aiding_)
         estimator_->process(next_aiding_->reading, output_);
       const Time begin = Time::now();
       estimator_->process(recording_.imu[next_], output_);
@@ -92,7 +94,8 @@ class Runner {
 };
 
 /// Runs them in turns; the first is what the others are compared with.
-void compare(const std::vector<Variant>& variants, const Scenario& scenario, const ins::Recording& recording, int particles) {
+void compare(const std::vector<Variant>& variants, const Scenario& scenario, const ins::Recording& recording,
+             int particles) {
   std::vector<Runner> runners;
   for (const auto& variant : variants) runners.emplace_back(variant, scenario, recording, particles);
   for (int second = 1; second <= static_cast<int>(scenario.duration); ++second)
@@ -101,9 +104,11 @@ void compare(const std::vector<Variant>& variants, const Scenario& scenario, con
     const Variant& variant = runner.variant();
     const bool blocks = variant.vectorised && findFilter(variant.name)->kind == FilterKind::SquareRoot;
     fmt::print(
-        "{:9} {} states, threads: {}, {:10}  step {:6.2f} ms, {:6.2f} ms of CPU, x {:5.2f} of the first; {:5.0f} times real time, {:5.0f} s a CPU second\n",
-        variant.name, variant.states, variant.threads, blocks ? blocks::target() : "one by one", 1e3 * runner.stepWall(), 1e3 * runner.stepCpu(),
-        runner.stepCpu() / runners.front().stepCpu(), runner.timesRealTime(), runner.secondsPerCpuSecond());
+        "{:9} {} states, threads: {}, {:10}  step {:6.2f} ms, {:6.2f} ms of CPU, x {:5.2f} of the first; {:5.0f} times "
+        "real time, {:5.0f} s a CPU second\n",
+        variant.name, variant.states, variant.threads, blocks ? blocks::target() : "one by one",
+        1e3 * runner.stepWall(), 1e3 * runner.stepCpu(), runner.stepCpu() / runners.front().stepCpu(),
+        runner.timesRealTime(), runner.secondsPerCpuSecond());
   }
   fmt::print("\n");
   std::fflush(stdout);
@@ -126,5 +131,7 @@ int main(int argc, char** argv) {
       for (const char* name : {"upf", "pf"}) variants.push_back({name, states, threads});
     compare(variants, scenario, recording, particles);
   }
-  forEachInstructionSet([&] { compare({{"ss_srupf"}, {"ss_srupf", kStates, 1, false}}, scenario, recording, particles); });
+  forEachInstructionSet([&] {
+    compare({{"ss_srupf"}, {"ss_srupf", kStates, 1, false}}, scenario, recording, particles);
+  });
 }

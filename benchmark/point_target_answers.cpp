@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Chips with one point target each, and what measurePointTarget() says of them, for benchmark/compare_measures.py, which gives the same to other people's code.
-// Writes NAME.npy and NAME.json to FOLDER and prints the measures as JSON. usage: point_target_answers FOLDER
+// Chips with one point target each, and what measurePointTarget() says of them, for benchmark/compare_measures.py,
+// which gives the same to other people's code. Writes NAME.npy and NAME.json to FOLDER and prints the measures as JSON.
+// usage: point_target_answers FOLDER
 #include <cstdlib>
 #include <functional>
 #include <iostream>
@@ -32,13 +33,15 @@ ImageGrid chipGrid() {
   return grid;
 }
 
-/// The response, a quarter of a pixel beside the middle, to a spectrum of this weight over u in [-1, 1] that begins at `first_bin`.
+/// The response, a quarter of a pixel beside the middle, to a spectrum of this weight over u in [-1, 1] that begins at
+/// `first_bin`.
 Spectrum response(int first_bin, const std::function<std::complex<double>(double)>& weight) {
   constexpr double kPlace = kHalfSize + 0.25;
   Spectrum line(kSize);
   for (int i = 0; i < kBand; ++i) {
     const int bin = first_bin + i;
-    line[static_cast<std::size_t>((bin + kSize) % kSize)] = std::polar(1.0, -2 * kPi * bin * kPlace / kSize) * weight(2 * (i + 0.5) / kBand - 1);
+    line[static_cast<std::size_t>((bin + kSize) % kSize)] =
+        std::polar(1.0, -2 * kPi * bin * kPlace / kSize) * weight(2 * (i + 0.5) / kBand - 1);
   }
   Fourier(kSize).inverse(line);
   return line;
@@ -53,7 +56,9 @@ Image chip(const Spectrum& range, const Spectrum& along) {
 
 std::complex<double> one(double) { return 1; }
 std::complex<double> hamming(double u) { return 0.54 + 0.46 * std::cos(kPi * u); }
-std::complex<double> quadratic(double u) { return std::polar(1.0, 4 * kPi * u * u / 8); }  // a slant error of an eighth of a wavelength at the edge
+std::complex<double> quadratic(double u) {
+  return std::polar(1.0, 4 * kPi * u * u / 8);
+}  // a slant error of an eighth of a wavelength at the edge
 
 /// Simulated, compressed and focused by backprojection: one target abeam of a straight track.
 Image focused() {
@@ -70,11 +75,13 @@ Image focused() {
   options.filter = RangeFilter::Equalized;
   ImageGrid grid = chipGrid();
   grid.origin.y() += 29;
-  return backproject(compressRange(simulateEchoes(sonar, echoPaths(sonar, track), scene, {}), sonar, options), grid, {});
+  return backproject(compressRange(simulateEchoes(sonar, echoPaths(sonar, track), scene, {}), sonar, options), grid,
+                     {});
 }
 
 json described(const CutMeasures& cut) {
-  return {{"irw", cut.irw}, {"pslr", cut.pslr}, {"islr", cut.islr}, {"main_lobe", cut.main_lobe}, {"extent", cut.extent}, {"complete", cut.complete}};
+  return {{"irw", cut.irw},       {"pslr", cut.pslr},        {"islr", cut.islr}, {"main_lobe", cut.main_lobe},
+          {"extent", cut.extent}, {"complete", cut.complete}};
 }
 
 }  // namespace
@@ -84,7 +91,10 @@ int main(int argc, char** argv) {
     std::cerr << "usage: point_target_answers FOLDER\n";
     return EXIT_FAILURE;
   }
-  constexpr int kAround = -kBand / 2, kAcross = kSize / 2 - kBand / 3;  // the latter lies across the end of the spectrum, as an image's with a carrier may
+  constexpr int kAround = -kBand / 2,
+                kAcross =
+                    kSize / 2 -
+                    kBand / 3;  // the latter lies across the end of the spectrum, as an image's with a carrier may
   const std::pair<std::string, Image> chips[] = {
       {"unweighted", chip(response(kAcross, one), response(kAround, one))},
       {"Hamming", chip(response(kAcross, hamming), response(kAround, hamming))},

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The bare pass that reprocess is measured against: reads a bag with rosbag::View and deserialises every message; the same with BagReader.
-// usage: read_bag BAG [BagReader]
+// The bare pass that reprocess is measured against: reads a bag with rosbag::View and deserialises every message; the
+// same with BagReader. usage: read_bag BAG [BagReader]
 #include <fmt/format.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -22,8 +22,9 @@ std::size_t readByView(const std::string& path) {
   rosbag::View view(bag);
   std::size_t read = 0;
   for (const rosbag::MessageInstance& m : view)
-    read += m.instantiate<nav_msgs::Odometry>() || m.instantiate<sensor_msgs::Imu>() || m.instantiate<sensor_msgs::NavSatFix>() ||
-            m.instantiate<geometry_msgs::TwistWithCovarianceStamped>() || m.instantiate<sas_motion::MeasurementLabel>() || m.instantiate<tf2_msgs::TFMessage>();
+    read += m.instantiate<nav_msgs::Odometry>() || m.instantiate<sensor_msgs::Imu>() ||
+            m.instantiate<sensor_msgs::NavSatFix>() || m.instantiate<geometry_msgs::TwistWithCovarianceStamped>() ||
+            m.instantiate<sas_motion::MeasurementLabel>() || m.instantiate<tf2_msgs::TFMessage>();
   return read;
 }
 
@@ -37,7 +38,8 @@ std::size_t readByBagReader(const std::string& path) {
   tf2_msgs::TFMessage tf;
   std::size_t read = 0;
   while (const auto* m = bag.next())
-    read += bag.get(*m, odometry) || bag.get(*m, imu) || bag.get(*m, fix) || bag.get(*m, twist) || bag.get(*m, label) || bag.get(*m, tf);
+    read += bag.get(*m, odometry) || bag.get(*m, imu) || bag.get(*m, fix) || bag.get(*m, twist) || bag.get(*m, label) ||
+            bag.get(*m, tf);
   return read;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Speckle on a flat bottom, heard from an almost straight track, and how fast it is focused: what the measurements of backprojection share.
+// Speckle on a flat bottom, heard from an almost straight track, and how fast it is focused: what the measurements of
+// backprojection share.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +32,8 @@ inline SonarDescription sonar() {
   return sonar;
 }
 
-/// Speckle heard from `count` places on kBeam metres of a slightly uneven track; receivers apart from the transmitter and under way where asked for.
+/// Speckle heard from `count` places on kBeam metres of a slightly uneven track; receivers apart from the transmitter
+/// and under way where asked for.
 inline EchoLines speckleLines(int count, bool bistatic) {
   std::vector<EchoPath> paths(static_cast<std::size_t>(count));
   Random random(1);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// USBL calibration: how well the filters follow a noise that changes, and whether a circle centred on the transponder is refused.
-// usage: usbl_figures [SEEDS]
+// USBL calibration: how well the filters follow a noise that changes, and whether a circle centred on the transponder
+// is refused. usage: usbl_figures [SEEDS]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,8 +40,8 @@ Campaign figureEight(const NoiseMix& noise) {
   return campaign;
 }
 
-/// The median over seeds of the estimated over the true variance of good noise, by time, channel by channel; then its worst and how often it
-/// is within 20 %.
+/// The median over seeds of the estimated over the true variance of good noise, by time, channel by channel; then its
+/// worst and how often it is within 20 %.
 void follow(const std::string& law, const std::string& filter, const NoiseMix& noise, std::uint64_t seeds) {
   const Campaign campaign = figureEight(noise);
   std::map<double, std::array<std::vector<double>, kChannels>> ratios;
@@ -49,7 +49,8 @@ void follow(const std::string& law, const std::string& filter, const NoiseMix& n
     for (const auto& estimate : estimate(campaign, simulatePings(campaign.scenario, seed), filter, {}).estimates)
       for (std::size_t i = 0; i < kChannels; ++i)
         if (estimate.time > kSettled)
-          ratios[estimate.time][i].push_back(estimate.noise(static_cast<Eigen::Index>(i)) / std::pow(varyingSigma(varying(), estimate.time), 2));
+          ratios[estimate.time][i].push_back(estimate.noise(static_cast<Eigen::Index>(i)) /
+                                             std::pow(varyingSigma(varying(), estimate.time), 2));
   for (std::size_t i = 0; i < kChannels; ++i) {
     double least = INFINITY, most = 0, within = 0;
     for (const auto& [time, channels] : ratios) {
@@ -58,7 +59,8 @@ void follow(const std::string& law, const std::string& filter, const NoiseMix& n
       most = std::max(most, median);
       within += std::abs(median - 1) <= kFollows;
     }
-    fmt::print("{:<24}{:<18}{:>9}{:>10.3f}{:>10.3f}{:>16.1f}\n", law, filter, i, least, most, 100 * within / static_cast<double>(ratios.size()));
+    fmt::print("{:<24}{:<18}{:>9}{:>10.3f}{:>10.3f}{:>16.1f}\n", law, filter, i, least, most,
+               100 * within / static_cast<double>(ratios.size()));
   }
 }
 
@@ -86,7 +88,8 @@ void centredCircle(std::uint64_t seeds) {
       verdict = found.verdict;
     }
   }
-  fmt::print("\nA circle centred on the transponder, 10 % outliers, {} seeds: refused in {}. \"{}\"\n", seeds, refused, verdict);
+  fmt::print("\nA circle centred on the transponder, 10 % outliers, {} seeds: refused in {}. \"{}\"\n", seeds, refused,
+             verdict);
   for (const auto& [name, count] : covered) fmt::print("{:<18}all six errors within 3 sigma in {}\n", name, count);
 }
 
@@ -94,8 +97,10 @@ void centredCircle(std::uint64_t seeds) {
 
 int main(int argc, char** argv) {
   const auto seeds = static_cast<std::uint64_t>(argc > 1 ? std::max(1, std::atoi(argv[1])) : 100);
-  fmt::print("Estimated over true variance of good noise, median of {} seeds, after {} s\n{:<24}{:<18}{:>9}{:>10}{:>10}{:>16}\n", seeds, kSettled, "law",
-             "filter", "channel", "least", "most", "within 20 % [%]");
+  fmt::print(
+      "Estimated over true variance of good noise, median of {} seeds, after {} "
+      "s\n{:<24}{:<18}{:>9}{:>10}{:>10}{:>16}\n",
+      seeds, kSettled, "law", "filter", "channel", "least", "most", "within 20 % [%]");
   const std::vector<NoiseLaw> both{varying(), kOutliers};
   for (const char* filter : {"vbckf", "hvbckf"}) {
     follow("sigma 1 to 5", filter, varying(), seeds);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// USBL calibration: CPU time of a measurement update of each filter, and of a robust fit of 1,000 pings, native and by the factor graph.
+// USBL calibration: CPU time of a measurement update of each filter, and of a robust fit of 1,000 pings, native and by
+// the factor graph.
 #include <benchmark/benchmark.h>
 
 #include "sas_motion/calibration/calibrator.hpp"
@@ -32,17 +33,23 @@ void update(benchmark::State& state, const std::string& name) {
   const CubatureFilter filter(*filterOptions(name, config));
   const Model model;
   const Matrix<kStates> none = Matrix<kStates>::Zero();
-  const CubatureFilter::Belief start(Gaussian<kStates>{Scenario::defaultTruth().head<kStates>(), config.prior.sigma.head<kStates>().cwiseAbs2().asDiagonal()});
+  const CubatureFilter::Belief start(Gaussian<kStates>{Scenario::defaultTruth().head<kStates>(),
+                                                       config.prior.sigma.head<kStates>().cwiseAbs2().asDiagonal()});
   CubatureFilter::Belief belief = start;
   std::size_t k = 0;
-  const auto difference = [&](const Vector<kChannels>& y, const Vector<kChannels>& x) { return model.difference(y, x); };
+  const auto difference = [&](const Vector<kChannels>& y, const Vector<kChannels>& x) {
+    return model.difference(y, x);
+  };
   for (auto unused : state) {
     (void)unused;
     const Ping& ping = pings()[k];
     k = (k + 1) % pings().size();
     if (k == 0) belief = start;
     const auto h = [&](const State& x) { return model.predict(x, ping); };
-    belief = filter.update(filter.predict(belief, none), ping.reading.value, ping.reading.variance, Vector<kChannels>::Ones(), h, difference).belief;
+    belief = filter
+                 .update(filter.predict(belief, none), ping.reading.value, ping.reading.variance,
+                         Vector<kChannels>::Ones(), h, difference)
+                 .belief;
     benchmark::DoNotOptimize(belief);
   }
 }
@@ -61,10 +68,14 @@ void robustFit(benchmark::State& state, const Fitter& fitter) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const auto& name : filterNames()) benchmark::RegisterBenchmark((name + ", an update").c_str(), [name](benchmark::State& state) { update(state, name); });
+  for (const auto& name : filterNames())
+    benchmark::RegisterBenchmark((name + ", an update").c_str(),
+                                 [name](benchmark::State& state) { update(state, name); });
   const auto native = [](const Problem& problem, const FitOptions& options) { return fit(problem, options); };
   const auto add = [](const char* name, const Fitter& fitter) {
-    benchmark::RegisterBenchmark(name, [fitter](benchmark::State& state) { robustFit(state, fitter); })->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(name, [fitter](benchmark::State& state) {
+      robustFit(state, fitter);
+    })->Unit(benchmark::kMillisecond);
   };
   add("native fit of 1,000 pings", native);
   add("batch of 1,000 pings", makeFitter("batch"));

@@ -106,7 +106,8 @@ struct Run {
   std::vector<towfish::Measurement> measurements;
 
   const towfish::StateVector& truthAt(Stamp stamp) const {
-    const auto found = std::lower_bound(truth.begin(), truth.end(), stamp, [](const auto& sample, Stamp s) { return sample.stamp < s; });
+    const auto found = std::lower_bound(truth.begin(), truth.end(), stamp,
+                                        [](const auto& sample, Stamp s) { return sample.stamp < s; });
     return found->state;
   }
 };

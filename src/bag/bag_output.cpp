@@ -4,7 +4,8 @@
 
 namespace sas_motion::ros_side {
 
-BagOutput::BagOutput(const std::string& path) : path_(path), file_(path), writer_(guarded([&] { return BagWriter(file_.temporary()); })) {}
+BagOutput::BagOutput(const std::string& path)
+    : path_(path), file_(path), writer_(guarded([&] { return BagWriter(file_.temporary()); })) {}
 
 void BagOutput::close() {
   guarded([&] { writer_.close(); });

@@ -15,7 +15,9 @@ BagReader::BagReader(const std::string& path) : path_(path), file_(path) {
   try {
     file_.readIndex(connections_, chunks_);
   } catch (const Error& error) {
-    throw std::runtime_error(fmt::format("{}: is no whole rosbag ({}); if it was cut short, 'rosbag reindex' may save what is there", path, error.what()));
+    throw std::runtime_error(
+        fmt::format("{}: is no whole rosbag ({}); if it was cut short, 'rosbag reindex' may save what is there", path,
+                    error.what()));
   }
   const auto earlier = [](const ChunkInfo& a, const ChunkInfo& b) { return key(a.begin) < key(b.begin); };
   std::stable_sort(chunks_.begin(), chunks_.end(), earlier);
@@ -31,7 +33,8 @@ void BagReader::damaged(const char* why) const {
 
 const BagMessage* BagReader::next() {
   release();
-  while (next_chunk_ < chunks_.size() && (heads_.empty() || key(chunks_[next_chunk_].begin) <= key(queues_[heads_.front()].front().time)))
+  while (next_chunk_ < chunks_.size() &&
+         (heads_.empty() || key(chunks_[next_chunk_].begin) <= key(queues_[heads_.front()].front().time)))
     guarded([&] { load(chunks_[next_chunk_++]); });
   if (heads_.empty()) return nullptr;
 
@@ -61,7 +64,8 @@ bool BagReader::isAfter(std::uint32_t a, std::uint32_t b) const {
 void BagReader::release() {
   const Chunk* left = std::exchange(chunk_of_message_, nullptr);
   if (!left) return;
-  const auto place = std::find_if(loaded_.begin(), loaded_.end(), [left](const auto& chunk) { return chunk.get() == left; });
+  const auto place =
+      std::find_if(loaded_.begin(), loaded_.end(), [left](const auto& chunk) { return chunk.get() == left; });
   if (--(*place)->unread > 0) return;
   idle_ = std::move(*place);
   loaded_.erase(place);
@@ -79,8 +83,11 @@ void BagReader::load(const ChunkInfo& info) {
   heads_.clear();
   for (std::uint32_t i = 0; i < queues_.size(); ++i) {
     auto& entries = queues_[i].entries;
-    const auto before = [](const Entry& a, const Entry& b) { return key(a.time) != key(b.time) ? key(a.time) < key(b.time) : a.chunk_order < b.chunk_order; };
-    if (!std::is_sorted(entries.begin(), entries.end(), before)) std::stable_sort(entries.begin(), entries.end(), before);
+    const auto before = [](const Entry& a, const Entry& b) {
+      return key(a.time) != key(b.time) ? key(a.time) < key(b.time) : a.chunk_order < b.chunk_order;
+    };
+    if (!std::is_sorted(entries.begin(), entries.end(), before))
+      std::stable_sort(entries.begin(), entries.end(), before);
     if (!entries.empty()) heads_.push_back(i);
   }
   std::make_heap(heads_.begin(), heads_.end(), [this](std::uint32_t a, std::uint32_t b) { return isAfter(a, b); });
@@ -95,7 +102,8 @@ void BagReader::addMessages(const ChunkInfo& info, Chunk& chunk) {
     if (!head) continue;
     const auto found = index_by_id_.find(head->connection);
     if (found == index_by_id_.end()) throw Error("a message of an unknown connection");
-    if (key(head->time) < key(info.begin) || key(head->time) > key(info.end)) throw Error("a chunk with messages outside the times in the index");
+    if (key(head->time) < key(info.begin) || key(head->time) > key(info.end))
+      throw Error("a chunk with messages outside the times in the index");
     queues_[found->second].entries.push_back({head->time, info.order, data, &chunk});
     ++chunk.unread;
   }

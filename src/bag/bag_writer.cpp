@@ -32,7 +32,9 @@ std::string op(Op code) { return field("op", std::string(1, static_cast<char>(co
 std::string withLength(const std::string& text) { return bytes(static_cast<std::uint32_t>(text.size())) + text; }
 
 /// The chunk's size is a part of its head, and its data's length.
-std::string chunkHead(std::uint32_t size) { return withLength(op(kChunk) + field("compression", "none") + field("size", bytes(size))) + bytes(size); }
+std::string chunkHead(std::uint32_t size) {
+  return withLength(op(kChunk) + field("compression", "none") + field("size", bytes(size))) + bytes(size);
+}
 
 }  // namespace
 
@@ -53,9 +55,11 @@ std::uint32_t BagWriter::addConnection(const std::string& topic, const Fields& h
   const auto id = static_cast<std::uint32_t>(connections_.size());
   std::string data;
   for (const auto& [name, value] : header) data += field(name, value);
-  connections_.push_back({withLength(op(kConnection) + field("conn", bytes(id)) + field("topic", topic)) + withLength(data),
-                          withLength(op(kMessage) + field("conn", bytes(id)) + field("time", bytes(ros::Time()))) + bytes(std::uint32_t{0}),
-                          {}});
+  connections_.push_back(
+      {withLength(op(kConnection) + field("conn", bytes(id)) + field("topic", topic)) + withLength(data),
+       withLength(op(kMessage) + field("conn", bytes(id)) + field("time", bytes(ros::Time()))) +
+           bytes(std::uint32_t{0}),
+       {}});
   return id;
 }
 
@@ -70,7 +74,8 @@ std::uint32_t BagWriter::connect(const BagConnection& source) {
 }
 
 void BagWriter::write(std::uint32_t connection, ros::Time time, Bytes message) {
-  std::memcpy(beginMessage(connection, time, static_cast<std::uint32_t>(message.size())), message.data(), message.size());
+  std::memcpy(beginMessage(connection, time, static_cast<std::uint32_t>(message.size())), message.data(),
+              message.size());
   endMessage();
 }
 
@@ -109,9 +114,11 @@ void BagWriter::flushChunk() {
     auto& entries = connections_[id].in_chunk;
     if (entries.empty()) continue;
     const auto earlier = [](const IndexEntry& a, const IndexEntry& b) { return key(a.time) < key(b.time); };
-    if (!std::is_sorted(entries.begin(), entries.end(), earlier)) std::stable_sort(entries.begin(), entries.end(), earlier);
+    if (!std::is_sorted(entries.begin(), entries.end(), earlier))
+      std::stable_sort(entries.begin(), entries.end(), earlier);
     const auto count = static_cast<std::uint32_t>(entries.size());
-    block_.append(withLength(op(kIndex) + field("ver", bytes(std::uint32_t{1})) + field("conn", bytes(id)) + field("count", bytes(count))));
+    block_.append(withLength(op(kIndex) + field("ver", bytes(std::uint32_t{1})) + field("conn", bytes(id)) +
+                             field("count", bytes(count))));
     const auto size = static_cast<std::uint32_t>(entries.size() * sizeof(IndexEntry));
     block_.append(bytes(size));
     std::memcpy(block_.extend(size), entries.data(), size);
@@ -136,8 +143,9 @@ void BagWriter::close() {
   for (const auto& chunk : chunks_) {
     std::string data;
     for (const auto& [id, count] : chunk.counts) data += bytes(id) + bytes(count);
-    block_.append(withLength(op(kChunkInfo) + field("ver", bytes(std::uint32_t{1})) + field("chunk_pos", bytes(chunk.position)) +
-                             field("start_time", bytes(chunk.begin)) + field("end_time", bytes(chunk.end)) +
+    block_.append(withLength(op(kChunkInfo) + field("ver", bytes(std::uint32_t{1})) +
+                             field("chunk_pos", bytes(chunk.position)) + field("start_time", bytes(chunk.begin)) +
+                             field("end_time", bytes(chunk.end)) +
                              field("count", bytes(static_cast<std::uint32_t>(chunk.counts.size())))) +
                   withLength(data));
   }

@@ -53,7 +53,8 @@ ChunkInfo chunkInfoFrom(Bytes header, Bytes data, std::map<std::uint32_t, std::u
 }  // namespace
 
 ChunkFile::ChunkFile(const std::string& path) : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (descriptor_ < 0 && errno == ENOENT) throw std::runtime_error(fmt::format("{}: no such file; check the path", path));
+  if (descriptor_ < 0 && errno == ENOENT)
+    throw std::runtime_error(fmt::format("{}: no such file; check the path", path));
   struct stat status {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0)
     throw std::runtime_error(fmt::format("{}: cannot be read as a rosbag: {}", path, std::strerror(errno)));
@@ -91,15 +92,20 @@ std::uint64_t ChunkFile::readFileHeader() {
   position_ = 0;
   take(kMagic.size(), data_);
   const std::string first(data_.begin(), data_.end());
-  if (first.compare(0, 9, "#ROSBAG V") != 0 && first.compare(0, 8, "#ROSLOG ") != 0) throw Error("it does not begin as one");
-  if (first != kMagic) throw std::runtime_error(fmt::format("{}: is a rosbag of an older format than 2.0; run 'rosbag fix' on it first", path_));
+  if (first.compare(0, 9, "#ROSBAG V") != 0 && first.compare(0, 8, "#ROSLOG ") != 0)
+    throw Error("it does not begin as one");
+  if (first != kMagic)
+    throw std::runtime_error(
+        fmt::format("{}: is a rosbag of an older format than 2.0; run 'rosbag fix' on it first", path_));
   const Bytes header = takeBlock(header_);
   requireOp(header, kFileHeader);
-  if (const auto encryptor = find(header, "encryptor"); encryptor && !encryptor->empty() && encryptor->text() != "rosbag/NoEncryptor")
+  if (const auto encryptor = find(header, "encryptor");
+      encryptor && !encryptor->empty() && encryptor->text() != "rosbag/NoEncryptor")
     throw std::runtime_error(fmt::format("{}: is encrypted; run 'rosbag decrypt' on it first", path_));
   const auto index_position = requiredNumber<std::uint64_t>(header, "index_pos");
   if (index_position == 0)
-    throw std::runtime_error(fmt::format("{}: has no index, as after a crash of the recorder; run 'rosbag reindex {}' first", path_, path_));
+    throw std::runtime_error(
+        fmt::format("{}: has no index, as after a crash of the recorder; run 'rosbag reindex {}' first", path_, path_));
   connection_count_ = requiredNumber<std::uint32_t>(header, "conn_count");
   chunk_count_ = requiredNumber<std::uint32_t>(header, "chunk_count");
   return index_position;

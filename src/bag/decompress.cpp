@@ -38,7 +38,8 @@ void decompressBz2(Bytes packed, std::size_t size, Buffer& unpacked) {
     stream.avail_out = static_cast<unsigned>(room);
     status = BZ2_bzDecompress(&stream);
     done += room - stream.avail_out;
-    if (status == BZ_OK && (done == size || stream.avail_out > 0)) status = BZ_UNEXPECTED_EOF;  // it wants more room, or more input
+    if (status == BZ_OK && (done == size || stream.avail_out > 0))
+      status = BZ_UNEXPECTED_EOF;  // it wants more room, or more input
   }
   BZ2_bzDecompressEnd(&stream);
   if (status != BZ_STREAM_END || done != size) throw Error("a chunk that does not unpack by bz2");
@@ -48,7 +49,8 @@ void decompressLz4(Bytes packed, std::size_t size, Buffer& unpacked) {
   if (size / 255 > packed.size()) throw Error("a chunk that cannot unpack to its size by lz4");  // its highest ratio
   unpacked.resize(size);
   auto done = static_cast<unsigned>(size);
-  const int status = roslz4_buffToBuffDecompress(writable(packed.data()), static_cast<unsigned>(packed.size()), writable(unpacked.data()), &done);
+  const int status = roslz4_buffToBuffDecompress(writable(packed.data()), static_cast<unsigned>(packed.size()),
+                                                 writable(unpacked.data()), &done);
   if (status != ROSLZ4_OK || done != size) throw Error("a chunk that does not unpack by lz4");
 }
 

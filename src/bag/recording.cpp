@@ -26,14 +26,16 @@ double headingOf(const geometry_msgs::Quaternion& q) {
   return wrapAngle(kPi / 2 - yaw);
 }
 
-/// The state group by group, as far as an odometry message has it; covariances between groups that no message carries are zero.
+/// The state group by group, as far as an odometry message has it; covariances between groups that no message carries
+/// are zero.
 Estimate estimateOf(const nav_msgs::Odometry& odometry) {
   Estimate estimate;
   estimate.stamp = stampOf(odometry.header.stamp);
   auto& x = estimate.belief.mean;
   auto& P = estimate.belief.covariance;
   P.setIdentity();
-  x << odometry.pose.pose.position.y, odometry.pose.pose.position.x, 0, 0, headingOf(odometry.pose.pose.orientation), odometry.twist.twist.linear.x;
+  x << odometry.pose.pose.position.y, odometry.pose.pose.position.x, 0, 0, headingOf(odometry.pose.pose.orientation),
+      odometry.twist.twist.linear.x;
   const auto& c = odometry.pose.covariance;
   P(kNorth, kNorth) = c[7];
   P(kEast, kEast) = c[0];
@@ -66,7 +68,8 @@ std::optional<MotionSample> motionOf(const nav_msgs::Odometry& odometry) {
   motion.lying = pose.covariance[21] < kNotEstimated;
   motion.moving = odometry.twist.covariance[0] < kNotEstimated;
   const auto block = [](const auto& covariance, int first) -> std::optional<Matrix<3>> {
-    const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> P = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(covariance.data());
+    const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> P =
+        Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(covariance.data());
     if (!(P(first, first) > 0)) return std::nullopt;  // zero is unknown
     return P.block<3, 3>(first, first);
   };
@@ -147,7 +150,8 @@ Recording Recording::read(const std::string& file) {
   std::map<std::string, bool> settled;
   for (const auto& name : estimatorsIn(bag.connections())) recording.estimators[name];
   if (recording.estimators.empty())
-    throw std::runtime_error(fmt::format("{}: holds no estimates (no topic NAME/update); run reprocess on it or record the nodelets", file));
+    throw std::runtime_error(
+        fmt::format("{}: holds no estimates (no topic NAME/update); run reprocess on it or record the nodelets", file));
   for (const auto& connection : bag.connections())
     for (const auto& [name, unused] : recording.estimators)
       if (bareTopic(connection.topic) == name + "/settled") settled[name] = true;
@@ -164,7 +168,8 @@ Recording Recording::read(const std::string& file) {
   while (const BagMessage* m = bag.next()) {
     const std::string topic = bareTopic(m->connection->topic);
     const auto slash = topic.rfind('/');
-    const std::string name = slash == std::string::npos ? "" : topic.substr(0, slash), leaf = slash == std::string::npos ? topic : topic.substr(slash + 1);
+    const std::string name = slash == std::string::npos ? "" : topic.substr(0, slash),
+                      leaf = slash == std::string::npos ? topic : topic.substr(slash + 1);
     if (const auto found = recording.estimators.find(name); found != recording.estimators.end()) {
       const bool has_settled = settled[name];
       if (leaf == (has_settled ? "settled" : "odometry") && bag.get(*m, odometry)) {
@@ -172,7 +177,8 @@ Recording Recording::read(const std::string& file) {
         if (const auto motion = motionOf(odometry)) found->second.motions.push_back(*motion);
       }
       if (leaf == "update" && bag.get(*m, update)) found->second.audits.push_back(auditOf(update));
-      if (leaf == (has_settled ? "settled_current" : "current") && bag.get(*m, current)) currents[name][stampOf(current.header.stamp)] = current;
+      if (leaf == (has_settled ? "settled_current" : "current") && bag.get(*m, current))
+        currents[name][stampOf(current.header.stamp)] = current;
     } else if (topic == "datum") {
       if (!frame && bag.get(*m, fix)) frame.emplace(geodeticOf(fix));
     } else if (topic == "truth/fix") {
@@ -183,12 +189,14 @@ Recording Recording::read(const std::string& file) {
       if (bag.get(*m, current)) truth.current[stampOf(current.header.stamp)] = current;
     } else if (topic == "truth/label") {
       if (bag.get(*m, label))
-        recording.outlier[{stampOf(label.header.stamp), label.sensor}] = std::any_of(label.outlier.begin(), label.outlier.end(), [](bool b) { return b; });
+        recording.outlier[{stampOf(label.header.stamp), label.sensor}] =
+            std::any_of(label.outlier.begin(), label.outlier.end(), [](bool b) { return b; });
     } else if (leaf == "fix") {
       if (bag.get(*m, fix) && hasPosition(fix)) fixes.emplace_back(stampOf(fix.header.stamp), geodeticOf(fix));
     }
   }
-  if (truth.fixes.empty()) throw std::runtime_error(fmt::format("{}: no topic truth/fix; there is nothing to score against", file));
+  if (truth.fixes.empty())
+    throw std::runtime_error(fmt::format("{}: no topic truth/fix; there is nothing to score against", file));
   if (!frame) throw std::runtime_error(fmt::format("{}: no topic datum; the estimates' origin is unknown", file));
 
   recording.truth_topic = truth.odometry.empty() ? "truth/fix" : "truth/odometry";
@@ -202,13 +210,15 @@ Recording Recording::read(const std::string& file) {
   for (auto& [name, estimator] : recording.estimators) {
     sortByStamp(estimator);
     for (auto& estimate : estimator.estimates)
-      if (const auto found = currents[name].find(estimate.stamp); found != currents[name].end()) addCurrent(found->second, estimate.belief);
+      if (const auto found = currents[name].find(estimate.stamp); found != currents[name].end())
+        addCurrent(found->second, estimate.belief);
   }
   return recording;
 }
 
 std::optional<std::pair<const TruthPoint*, const TruthPoint*>> Recording::around(Stamp stamp) const {
-  const auto after = std::lower_bound(truth.begin(), truth.end(), stamp, [](const TruthPoint& t, Stamp s) { return t.stamp < s; });
+  const auto after =
+      std::lower_bound(truth.begin(), truth.end(), stamp, [](const TruthPoint& t, Stamp s) { return t.stamp < s; });
   if (after == truth.end()) return std::nullopt;
   if (after->stamp == stamp) return std::pair(&*after, &*after);
   if (after == truth.begin() || secondsBetween((after - 1)->stamp, after->stamp) > kLongestGap) return std::nullopt;
@@ -221,7 +231,8 @@ std::optional<Reference> Recording::truthAt(Stamp stamp) const {
   const auto [a, b] = *points;
   Reference reference = a->reference;
   if (a == b) return reference;
-  reference.state += secondsBetween(a->stamp, stamp) / secondsBetween(a->stamp, b->stamp) * Model::difference(b->reference.state, a->reference.state);
+  reference.state += secondsBetween(a->stamp, stamp) / secondsBetween(a->stamp, b->stamp) *
+                     Model::difference(b->reference.state, a->reference.state);
   reference.state(kHeading) = wrapAngle(reference.state(kHeading));
   return reference;
 }
@@ -229,7 +240,8 @@ std::optional<Reference> Recording::truthAt(Stamp stamp) const {
 std::optional<MotionSample> Recording::motionAt(Stamp stamp) const {
   const auto points = around(stamp);
   if (!points || !points->first->motion || !points->second->motion) return std::nullopt;
-  return points->first == points->second ? points->first->motion : interpolate(*points->first->motion, *points->second->motion, stamp);
+  return points->first == points->second ? points->first->motion
+                                         : interpolate(*points->first->motion, *points->second->motion, stamp);
 }
 
 }  // namespace sas_motion::ros_side

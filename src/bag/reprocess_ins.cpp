@@ -22,7 +22,11 @@ constexpr std::size_t kBatch = 256;  // readings handed to an estimator at once
 class Writer {
  public:
   Writer(const std::string& name, const InsSettings& settings, const RunOutput& out)
-      : name_(name), settings_(settings), rate_(settings.estimation.output_rate), bag_(out.bag), tum_(fmt::format("{}.{}.tum", out.stem, name)) {}
+      : name_(name),
+        settings_(settings),
+        rate_(settings.estimation.output_rate),
+        bag_(out.bag),
+        tum_(fmt::format("{}.{}.tum", out.stem, name)) {}
 
   /// Nothing starts without a fix, so that there is a frame where there are solutions.
   void drain(ins::Output& output, const std::optional<LocalFrame>& frame, const Vector<3>& base_lever_body) {
@@ -67,7 +71,8 @@ class Writer {
 
 class InsRun final : public BagRun {
  public:
-  InsRun(const InsSettings& settings, const std::string& file, InsTopics topics, const std::vector<std::string>& estimators, const RunOutput& out)
+  InsRun(const InsSettings& settings, const std::string& file, InsTopics topics,
+         const std::vector<std::string>& estimators, const RunOutput& out)
       : settings_(settings),
         file_(file),
         topics_(std::move(topics)),
@@ -98,7 +103,8 @@ class InsRun final : public BagRun {
     session_.finish();
     drain();
     for (std::size_t i = 0; i < InsIngest::kSources; ++i)
-      if (i != InsIngest::kVelocity || !topics_.velocity.empty()) report.sensors[InsIngest::kNames[i]] = ingest_.inbox().counts(i);
+      if (i != InsIngest::kVelocity || !topics_.velocity.empty())
+        report.sensors[InsIngest::kNames[i]] = ingest_.inbox().counts(i);
     for (std::size_t i = 0; i < writers_.size(); ++i) {
       writers_[i]->finish(session_.lanes()[i]);
       report.estimators[session_.lanes()[i].name] = writers_[i]->report();
@@ -115,10 +121,12 @@ class InsRun final : public BagRun {
 
  private:
   bool nothingEstimated() const {
-    return std::all_of(writers_.begin(), writers_.end(), [](const auto& writer) { return writer->report().estimates == 0; });
+    return std::all_of(writers_.begin(), writers_.end(),
+                       [](const auto& writer) { return writer->report().estimates == 0; });
   }
   void drain() {
-    for (std::size_t i = 0; i < writers_.size(); ++i) writers_[i]->drain(session_.lanes()[i].output, frame(), ingest_.base_lever_body());
+    for (std::size_t i = 0; i < writers_.size(); ++i)
+      writers_[i]->drain(session_.lanes()[i].output, frame(), ingest_.base_lever_body());
   }
 
   const InsSettings& settings_;
@@ -140,11 +148,13 @@ class InsSystem final : public ReprocessSystem {
   void require(const std::string& estimator) const override {
     const auto& known = settings_.estimators;
     if (std::find(known.begin(), known.end(), estimator) == known.end())
-      throw std::runtime_error(fmt::format("'{}' is no estimator of this system; known are {}", estimator, fmt::join(known, ", ")));
+      throw std::runtime_error(
+          fmt::format("'{}' is no estimator of this system; known are {}", estimator, fmt::join(known, ", ")));
   }
-  std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file, const std::vector<std::string>& estimators,
-                                const RunOutput& out) const override {
-    return std::make_unique<InsRun>(settings_, file, findTopics(source.connections(), settings_, file), estimators, out);
+  std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file,
+                                const std::vector<std::string>& estimators, const RunOutput& out) const override {
+    return std::make_unique<InsRun>(settings_, file, findTopics(source.connections(), settings_, file), estimators,
+                                    out);
   }
   const MapSettings& map() const override { return settings_; }
 
@@ -154,6 +164,8 @@ class InsSystem final : public ReprocessSystem {
 
 }  // namespace
 
-std::unique_ptr<ReprocessSystem> makeInsSystem(const std::string& config) { return std::make_unique<InsSystem>(config); }
+std::unique_ptr<ReprocessSystem> makeInsSystem(const std::string& config) {
+  return std::make_unique<InsSystem>(config);
+}
 
 }  // namespace sas_motion::ros_side

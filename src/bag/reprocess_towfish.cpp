@@ -19,7 +19,11 @@ constexpr std::size_t kBatch = 256;  // measurements handed to an estimator at o
 class Lane {
  public:
   Lane(const std::string& name, const Settings& settings, BagOutput& bag, const std::string& tum_path)
-      : name_(name), settings_(settings), estimator_(towfish::makeAnyEstimator(name, settings.estimation)), bag_(bag), tum_(tum_path) {}
+      : name_(name),
+        settings_(settings),
+        estimator_(towfish::makeAnyEstimator(name, settings.estimation)),
+        bag_(bag),
+        tum_(tum_path) {}
 
   void process(const std::vector<Measurement>& measurements, const LocalFrame* frame) {
     const double begin = cpuSeconds();
@@ -48,8 +52,9 @@ class Lane {
     for (const auto& estimate : output_.estimates) tum_.write(estimate);
     for (const auto& audit : output_.audits) ++report_.verdicts[static_cast<std::size_t>(audit.verdict)];
     report_.estimates += output_.estimates.size();
-    forEachMessage(name_, "odometry", output_, frame, settings_,
-                   [this](const std::string& topic, ros::Time time, const auto& message) { bag_.write(topic, time, message); });
+    forEachMessage(
+        name_, "odometry", output_, frame, settings_,
+        [this](const std::string& topic, ros::Time time, const auto& message) { bag_.write(topic, time, message); });
     output_.clear();
   }
 
@@ -64,9 +69,12 @@ class Lane {
 
 class TowfishRun final : public BagRun {
  public:
-  TowfishRun(const Settings& settings, SensorTopics topics, const std::vector<std::string>& estimators, const RunOutput& out)
-      : topics_(std::move(topics)), ingest_(settings, out.transforms, [this](const Measurement& z) { batch_.push_back(z); }) {
-    for (const auto& name : estimators) lanes_.push_back(std::make_unique<Lane>(name, settings, out.bag, fmt::format("{}.{}.tum", out.stem, name)));
+  TowfishRun(const Settings& settings, SensorTopics topics, const std::vector<std::string>& estimators,
+             const RunOutput& out)
+      : topics_(std::move(topics)),
+        ingest_(settings, out.transforms, [this](const Measurement& z) { batch_.push_back(z); }) {
+    for (const auto& name : estimators)
+      lanes_.push_back(std::make_unique<Lane>(name, settings, out.bag, fmt::format("{}.{}.tum", out.stem, name)));
   }
 
   bool isSensor(const BagConnection& connection) const override {
@@ -85,7 +93,8 @@ class TowfishRun final : public BagRun {
     ingest_.finish();
     feed();
     for (auto& lane : lanes_) lane->finish(origin());
-    for (int i = 0; i < Ingest::kSources; ++i) report.sensors[Ingest::kNames[static_cast<std::size_t>(i)]] = ingest_.counts(static_cast<Ingest::Source>(i));
+    for (int i = 0; i < Ingest::kSources; ++i)
+      report.sensors[Ingest::kNames[static_cast<std::size_t>(i)]] = ingest_.counts(static_cast<Ingest::Source>(i));
     for (const auto& lane : lanes_) report.estimators[lane->name()] = lane->report();
   }
 
@@ -116,10 +125,11 @@ class TowfishSystem final : public ReprocessSystem {
 
   void require(const std::string& estimator) const override {
     if (!towfish::makeAnyEstimator(estimator, settings_.estimation))
-      throw std::runtime_error(fmt::format("'{}' is no estimator; known are {}", estimator, fmt::join(towfish::estimatorNames(), ", ")));
+      throw std::runtime_error(
+          fmt::format("'{}' is no estimator; known are {}", estimator, fmt::join(towfish::estimatorNames(), ", ")));
   }
-  std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file, const std::vector<std::string>& estimators,
-                                const RunOutput& out) const override {
+  std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file,
+                                const std::vector<std::string>& estimators, const RunOutput& out) const override {
     return std::make_unique<TowfishRun>(settings_, findTopics(source.connections(), settings_, file), estimators, out);
   }
   const MapSettings& map() const override { return settings_; }
@@ -130,6 +140,8 @@ class TowfishSystem final : public ReprocessSystem {
 
 }  // namespace
 
-std::unique_ptr<ReprocessSystem> makeTowfishSystem(const std::string& config) { return std::make_unique<TowfishSystem>(config); }
+std::unique_ptr<ReprocessSystem> makeTowfishSystem(const std::string& config) {
+  return std::make_unique<TowfishSystem>(config);
+}
 
 }  // namespace sas_motion::ros_side

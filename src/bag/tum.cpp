@@ -13,7 +13,8 @@
 
 namespace sas_motion::ros_side {
 
-TumFile::TumFile(const std::string& path) : path_(path), file_(path), stream_(std::fopen(file_.temporary().c_str(), "wb")) {
+TumFile::TumFile(const std::string& path)
+    : path_(path), file_(path), stream_(std::fopen(file_.temporary().c_str(), "wb")) {
   if (!stream_) throw std::runtime_error(fmt::format("{}: could not be created", path));
 }
 

@@ -14,8 +14,9 @@
 namespace sas_motion::usbl {
 namespace {
 
-constexpr double kContradiction = 1 - 1e-6;  // probability that a good filter's distance from a fit stays below the threshold
-constexpr std::size_t kFewestPings = 10;     // that a start may rest on
+constexpr double kContradiction =
+    1 - 1e-6;  // probability that a good filter's distance from a fit stays below the threshold
+constexpr std::size_t kFewestPings = 10;  // that a start may rest on
 
 Gaussian<kStates> filterPart(const Unknowns& mean, const Matrix<kUnknowns>& covariance) {
   return {mean.head<kStates>(), covariance.topLeftCorner<kStates, kStates>()};
@@ -23,7 +24,8 @@ Gaussian<kStates> filterPart(const Unknowns& mean, const Matrix<kUnknowns>& cova
 
 AdaptiveCubatureOptions optionsOf(const std::string& name, const Config& config) {
   if (const auto options = filterOptions(name, config)) return *options;
-  throw std::invalid_argument(fmt::format("'{}' is no calibration filter; choose one of {}", name, fmt::join(filterNames(), ", ")));
+  throw std::invalid_argument(
+      fmt::format("'{}' is no calibration filter; choose one of {}", name, fmt::join(filterNames(), ", ")));
 }
 
 }  // namespace
@@ -79,7 +81,8 @@ Calibrator::Report Calibrator::process(const Ping& raw) {
   if (present.isZero(0) || !ping.C_body_map.allFinite() || !ping.transponder_map.allFinite()) return report;
   if (recent_.empty()) first_ = checked_ = ping.stamp;
   recent_.push_back(ping);
-  while (secondsBetween(recent_.front().stamp, ping.stamp) > std::max(config_.start_window, config_.check_window)) recent_.pop_front();
+  while (secondsBetween(recent_.front().stamp, ping.stamp) > std::max(config_.start_window, config_.check_window))
+    recent_.pop_front();
 
   if (!started_ && config_.start_window > 0) {
     if (secondsBetween(first_, ping.stamp) < config_.start_window || recent_.size() < kFewestPings) return report;
@@ -92,8 +95,9 @@ Calibrator::Report Calibrator::process(const Ping& raw) {
   started_ = true;
   const Matrix<kStates> Q = config_.drift.cwiseAbs2().asDiagonal();
   const auto h = [&](const State& x) { return model_.predict(x, ping); };
-  report = filter_.update(filter_.predict(belief_, Q), z, variance, present, h,
-                          [&](const Vector<kChannels>& y, const Vector<kChannels>& x) { return model_.difference(y, x); });
+  report =
+      filter_.update(filter_.predict(belief_, Q), z, variance, present, h,
+                     [&](const Vector<kChannels>& y, const Vector<kChannels>& x) { return model_.difference(y, x); });
   if (report.verdict == Verdict::Invalid) return report;
   belief_ = report.belief;
   if (config_.check_window > 0 && secondsBetween(checked_, ping.stamp) >= config_.check_window) {
@@ -121,7 +125,8 @@ void Calibrator::startFrom(const Problem& problem, const Fit& fit) {
   started_ = true;
 }
 
-/// A filter that took an outlier for truth explains all later pings by noise and is sure of it. A fit of those pings alone is not.
+/// A filter that took an outlier for truth explains all later pings by noise and is sure of it. A fit of those pings
+/// alone is not.
 void Calibrator::checkLockIn() {
   const Problem problem = window(config_.check_window);
   const Fit found = fit(problem, config_.fit);

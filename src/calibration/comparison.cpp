@@ -35,7 +35,8 @@ Estimated runFilter(const std::string& name, const std::vector<Ping>& pings, con
   }
   result.lock_ins = calibrator.lockIns();
   if (!calibrator.started()) {
-    result.failure = fmt::format("{} did not start: it needs {} s of pings, and there are {}", name, config.start_window, pings.size());
+    result.failure = fmt::format("{} did not start: it needs {} s of pings, and there are {}", name,
+                                 config.start_window, pings.size());
     return result;
   }
   result.x = Model::widened(calibrator.belief().mean);
@@ -87,10 +88,12 @@ std::string implausibility(const Comparison& comparison) {
   const auto channels = channelNames(comparison.problem.model.mode());
   for (int i = 0; i < kChannels; ++i) {
     const ChannelStatistics statistics = channelStatistics(comparison, comparison.best(), i);
-    const bool contradicted = static_cast<double>(statistics.outliers) > kMostOutliers * static_cast<double>(statistics.count);
+    const bool contradicted =
+        static_cast<double>(statistics.outliers) > kMostOutliers * static_cast<double>(statistics.count);
     if (contradicted || statistics.noise > kNoiseAbsurd)
       return fmt::format(
-          "the readings of {} contradict the answer ({} of {} are outliers, the noise is {:.2g} times the stated one): check axes, units and clocks",
+          "the readings of {} contradict the answer ({} of {} are outliers, the noise is {:.2g} times the stated one): "
+          "check axes, units and clocks",
           channels[static_cast<std::size_t>(i)], statistics.outliers, statistics.count, statistics.noise);
   }
   return "";
@@ -103,17 +106,21 @@ std::vector<std::string> warningsOf(const Comparison& comparison) {
   for (int i = 0; i < kUnknowns; ++i) {
     const double away = std::abs(comparison.best().x(i) - prior.mean(i)) / prior.sigma(i);
     if (prior.estimated[static_cast<std::size_t>(i)] && away > kFarFromPrior)
-      warnings.push_back(fmt::format("{} lies {:.0f} standard deviations from what was expected: check the axes, or give a nominal mounting or a wider prior",
-                                     unknownNames()[static_cast<std::size_t>(i)], away));
+      warnings.push_back(
+          fmt::format("{} lies {:.0f} standard deviations from what was expected: check the axes, or give a nominal "
+                      "mounting or a wider prior",
+                      unknownNames()[static_cast<std::size_t>(i)], away));
   }
   for (int i = 0; i < kChannels; ++i) {
     const ChannelStatistics statistics = channelStatistics(comparison, comparison.best(), i);
     if (statistics.count == 0) continue;
     if (statistics.noise > kNoiseMisStated || statistics.noise < 1 / kNoiseMisStated)
-      warnings.push_back(fmt::format("the noise of {} is {:.2g} times the stated one: check what the driver states, and the axes",
-                                     channels[static_cast<std::size_t>(i)], statistics.noise));
+      warnings.push_back(
+          fmt::format("the noise of {} is {:.2g} times the stated one: check what the driver states, and the axes",
+                      channels[static_cast<std::size_t>(i)], statistics.noise));
     if (static_cast<double>(statistics.outliers) > kManyOutliers * static_cast<double>(statistics.count))
-      warnings.push_back(fmt::format("{} of {} readings of {} are outliers", statistics.outliers, statistics.count, channels[static_cast<std::size_t>(i)]));
+      warnings.push_back(fmt::format("{} of {} readings of {} are outliers", statistics.outliers, statistics.count,
+                                     channels[static_cast<std::size_t>(i)]));
   }
   return warnings;
 }
@@ -134,9 +141,10 @@ std::array<std::string, kChannels> channelNames(Mode mode) {
                 : std::array<std::string, kChannels>{"range", "to_starboard", "to_forward"};
 }
 
-Comparison compare(const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const FitterFactory& fitters,
-                   const std::function<void()>& progress) {
-  Comparison result{{Model(config.mode), config.prior, pings, Vector<kChannels>::Ones()}, {}, 0, {}, 0, true, "", {}, ""};
+Comparison compare(const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names,
+                   const FitterFactory& fitters, const std::function<void()>& progress) {
+  Comparison result{
+      {Model(config.mode), config.prior, pings, Vector<kChannels>::Ones()}, {}, 0, {}, 0, true, "", {}, ""};
   for (auto& ping : result.problem.pings) ping.reading = result.problem.model.convert(ping.reading);
   std::vector<std::string> all;
   for (const auto& name : names)
@@ -144,18 +152,21 @@ Comparison compare(const std::vector<Ping>& pings, const Config& config, const s
   if (std::find(all.begin(), all.end(), "batch") == all.end()) all.emplace_back("batch");
   for (const auto& name : all) {
     const Fitter fitter = fitters(name);
-    result.estimates.push_back(fitter ? runFitter(name, fitter, result.problem, config) : runFilter(name, pings, config));
+    result.estimates.push_back(fitter ? runFitter(name, fitter, result.problem, config)
+                                      : runFilter(name, pings, config));
     progress();
   }
   result.answer = answerOf(result.estimates, config);
   if (result.answer == result.estimates.size()) {
-    for (const auto& estimated : result.estimates) result.failure += (result.failure.empty() ? "" : "; ") + estimated.failure;
+    for (const auto& estimated : result.estimates)
+      result.failure += (result.failure.empty() ? "" : "; ") + estimated.failure;
     return result;
   }
   for (int i = 0; i < kChannels; ++i) result.problem.scale(i) = medianNoise(result.best(), i);
   result.observability = observability(result.problem, result.best().x);
   for (const auto& estimated : result.estimates)
-    if (estimated.name == "batch" && estimated.failure.empty()) result.distance = distanceBetween(result.best(), estimated);
+    if (estimated.name == "batch" && estimated.failure.empty())
+      result.distance = distanceBetween(result.best(), estimated);
   result.agrees = result.distance < agreementLimit();
   result.implausible = implausibility(result);
   result.warnings = warningsOf(result);

@@ -10,13 +10,18 @@ namespace {
 
 constexpr std::size_t kMostPoses = 100'000;  // kept where no reading comes
 
-bool onEarth(const Geodetic& p) { return std::abs(p.latitude_deg) <= 90 && std::isfinite(p.longitude_deg) && std::isfinite(p.altitude); }
+bool onEarth(const Geodetic& p) {
+  return std::abs(p.latitude_deg) <= 90 && std::isfinite(p.longitude_deg) && std::isfinite(p.altitude);
+}
 
 bool usable(const Reading& reading) { return reading.has(0) || reading.has(1) || reading.has(2); }
 
-/// The neighbours of a stamp, the same twice where it falls on one; nothing where there is none on either side or they are too far apart.
+/// The neighbours of a stamp, the same twice where it falls on one; nothing where there is none on either side or they
+/// are too far apart.
 template <class Map>
-std::optional<std::pair<typename Map::const_iterator, typename Map::const_iterator>> neighbours(const Map& samples, Stamp stamp, double gap) {
+std::optional<std::pair<typename Map::const_iterator, typename Map::const_iterator>> neighbours(const Map& samples,
+                                                                                                Stamp stamp,
+                                                                                                double gap) {
   const auto after = samples.lower_bound(stamp);
   if (after == samples.end()) return std::nullopt;
   if (after->first == stamp) return std::pair(after, after);
@@ -27,7 +32,9 @@ std::optional<std::pair<typename Map::const_iterator, typename Map::const_iterat
 }
 
 /// Where a stamp lies between two, 0 to 1.
-double share(Stamp before, Stamp stamp, Stamp after) { return before == after ? 0 : secondsBetween(before, stamp) / secondsBetween(before, after); }
+double share(Stamp before, Stamp stamp, Stamp after) {
+  return before == after ? 0 : secondsBetween(before, stamp) / secondsBetween(before, after);
+}
 
 template <class Map>
 void keepRecent(Map& samples) {
@@ -37,9 +44,9 @@ void keepRecent(Map& samples) {
 }  // namespace
 
 const std::string& omissionText(Omission omission) {
-  static const std::array<std::string, kOmissions> texts{"without a usable channel",     "of a transponder without a position",
-                                                         "before the first GNSS fix",    "where GNSS positions pause or end",
-                                                         "where attitudes pause or end", "late or twice"};
+  static const std::array<std::string, kOmissions> texts{
+      "without a usable channel",          "of a transponder without a position", "before the first GNSS fix",
+      "where GNSS positions pause or end", "where attitudes pause or end",        "late or twice"};
   return texts[static_cast<std::size_t>(omission)];
 }
 
@@ -104,7 +111,8 @@ std::optional<Ping> PingBuilder::assemble(Stamp stamp, const Waiting& waiting, O
   Ping ping;
   ping.stamp = stamp;
   ping.C_body_map = (C_map_body * nominal_.C_body_array).transpose();
-  ping.transponder_map = LocalFrame(frame_->geodetic(*position)).position_enu(transponder->second) - C_map_body * nominal_.lever_arm_body;
+  ping.transponder_map =
+      LocalFrame(frame_->geodetic(*position)).position_enu(transponder->second) - C_map_body * nominal_.lever_arm_body;
   ping.reading = waiting.reading;
   return ping;
 }

@@ -15,7 +15,8 @@ constexpr double kMedianOfGood = 0.6744897501960817;  // median of |r| for stand
 constexpr int kScaleRounds = 50;
 constexpr double kLeastSlope = 0.05;  // a channel of nothing but outliers tells next to nothing
 
-/// Normal equations of the weighted residuals, in units of the prior's standard deviations; what is not estimated stays.
+/// Normal equations of the weighted residuals, in units of the prior's standard deviations; what is not estimated
+/// stays.
 struct NormalEquations {
   Matrix<kUnknowns> A = Matrix<kUnknowns>::Identity();
   Vector<kUnknowns> b;
@@ -47,12 +48,15 @@ Vector<kChannels> scaleAt(const Problem& problem, const Unknowns& x) {
     for (int i = 0; i < kChannels; ++i)
       if (ping.reading.has(i)) residuals[static_cast<std::size_t>(i)].push_back(std::abs(residual(i)));
   }
-  const auto unknowns = static_cast<double>(std::count(problem.prior.estimated.begin(), problem.prior.estimated.end(), true));
+  const auto unknowns =
+      static_cast<double>(std::count(problem.prior.estimated.begin(), problem.prior.estimated.end(), true));
   Vector<kChannels> scale = problem.scale;
   for (int i = 0; i < kChannels; ++i) {
     const auto& all = residuals[static_cast<std::size_t>(i)];
-    const double count = static_cast<double>(all.size()), spent = unknowns / kChannels;  // the fit takes its share of freedom
-    const double median = count > 2 * unknowns ? quantile(all, 0.5) / kMedianOfGood * std::sqrt(count / (count - spent)) : 0;
+    const double count = static_cast<double>(all.size()),
+                 spent = unknowns / kChannels;  // the fit takes its share of freedom
+    const double median =
+        count > 2 * unknowns ? quantile(all, 0.5) / kMedianOfGood * std::sqrt(count / (count - spent)) : 0;
     if (median > 0) scale(i) = median;
   }
   return scale;
@@ -71,7 +75,8 @@ Matrix<kUnknowns> influenceCovariance(const Problem& problem, const Loss& loss, 
       if (!ping.reading.has(i)) continue;
       slope(i) += loss.slope(residual(i));
       ++count(i);
-      const double psi = residual(i) * loss.weight(residual(i)), variance = problem.scale(i) * problem.scale(i) * ping.reading.variance(i);
+      const double psi = residual(i) * loss.weight(residual(i)),
+                   variance = problem.scale(i) * problem.scale(i) * ping.reading.variance(i);
       meat += psi * psi / variance * H.row(i).transpose() * H.row(i);
     }
   }

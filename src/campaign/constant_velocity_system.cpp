@@ -39,7 +39,8 @@ std::vector<Epoch> simulate(const Model& model, const Law& law, double duration,
   constexpr std::uint64_t kProcessStream = 100, kSensorStream = 200;
   ProcessNoise process(law.process, kStates, seed, kProcessStream);
   std::vector<NoiseSource> sensors;
-  for (std::uint64_t row = 0; row < kRows; ++row) sensors.emplace_back(row < 3 ? law.position : law.velocity, seed, kSensorStream + row, kSensorStream + 100);
+  for (std::uint64_t row = 0; row < kRows; ++row)
+    sensors.emplace_back(row < 3 ? law.position : law.velocity, seed, kSensorStream + row, kSensorStream + 100);
   const auto step = model.transition(State::Zero());
   const Matrix<kStates> F = step.F, root = step.Q.llt().matrixL();
   std::vector<Epoch> run;
@@ -126,7 +127,8 @@ class ConstantVelocitySystem final : public System {
     skip = 10;
     campaign.number("duration", duration, {1, 1e6});
     campaign.number("skip", skip, {0, 1e6});
-    if (skip >= duration) campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
+    if (skip >= duration)
+      campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
     campaign.texts("estimators", estimators);
     if (estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
     config_.bank_kf.epoch = model_.step;
@@ -234,7 +236,8 @@ Named<double> ConstantVelocitySystem::bound(std::size_t law, const std::vector<s
       bound.step({transition}, process.genie ? 1 : process.factor);
       Vector<kRows> factor;
       for (int row = 0; row < kRows; ++row)
-        factor(row) = std::isinf(epoch.variance(row)) ? 0 : (row < 3 ? position : velocity).of(epoch.variance(row), epoch.time);
+        factor(row) =
+            std::isinf(epoch.variance(row)) ? 0 : (row < 3 ? position : velocity).of(epoch.variance(row), epoch.time);
       bound.measurement<kRows>({model_.measurement(State::Zero().head<kRows>(), State::Zero(), epoch.time)}, {factor});
       if (epoch.time > skip) mean.add(bound);
     }
@@ -244,6 +247,8 @@ Named<double> ConstantVelocitySystem::bound(std::size_t law, const std::vector<s
 
 }  // namespace
 
-std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign) { return std::make_unique<ConstantVelocitySystem>(campaign); }
+std::unique_ptr<System> makeConstantVelocitySystem(YamlSection& campaign) {
+  return std::make_unique<ConstantVelocitySystem>(campaign);
+}
 
 }  // namespace sas_motion

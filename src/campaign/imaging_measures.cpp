@@ -6,15 +6,16 @@ namespace sas_motion::imaging {
 namespace {
 
 /// Errors of a cut beside the same cut of the error-free image.
-void addCut(Named<double>& measures, const std::string& prefix, const std::string& name, const imaging::CutMeasures& cut,
-            const imaging::CutMeasures& reference) {
+void addCut(Named<double>& measures, const std::string& prefix, const std::string& name,
+            const imaging::CutMeasures& cut, const imaging::CutMeasures& reference) {
   measures.emplace_back(prefix + "pslr_" + name, cut.pslr - reference.pslr);
   measures.emplace_back(prefix + "islr_" + name, cut.islr - reference.islr);
   measures.emplace_back(prefix + "irw_" + name, cut.irw / reference.irw);
 }
 
 /// Of the first target.
-void addImage(Named<double>& measures, const std::string& prefix, const FocusedImage& image, const FocusedImage& error_free) {
+void addImage(Named<double>& measures, const std::string& prefix, const FocusedImage& image,
+              const FocusedImage& error_free) {
   const auto &target = image.targets.front(), &reference = error_free.targets.front();
   if (!target.complete) return;
   addCut(measures, prefix, "along", target.along, reference.along);
@@ -29,7 +30,8 @@ Named<double> imageMeasures(FocusBench& bench, const std::vector<PingPose>& pose
   const auto error = bench.error(poses);
   Named<double> measures{{"speed", error.along.slope}};
   for (const auto& [name, rms] :
-       {std::pair("path", error.path.rms), std::pair("line_of_sight", error.line_of_sight.rms), std::pair("along", error.along.rms)}) {
+       {std::pair("path", error.path.rms), std::pair("line_of_sight", error.line_of_sight.rms),
+        std::pair("along", error.along.rms)}) {
     measures.emplace_back(name, rms);
     measures.emplace_back(std::string(name) + "_wavelengths", rms / wavelength);
   }
@@ -43,7 +45,8 @@ Named<double> imageMeasures(FocusBench& bench, const std::vector<PingPose>& pose
 /// Of the middle of the aperture.
 double horizontalError(const std::vector<PingPose>& estimate, const std::vector<PingPose>& truth) {
   Eigen::Vector2d error = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < truth.size(); ++i) error += (estimate[i].position - truth[i].position).head<2>() / static_cast<double>(truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    error += (estimate[i].position - truth[i].position).head<2>() / static_cast<double>(truth.size());
   return error.norm();
 }
 

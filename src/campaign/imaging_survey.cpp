@@ -13,7 +13,9 @@ namespace {
 
 constexpr double kStartEvery = 1;  // [s]
 
-Geodetic geodeticOf(const NavigationState& state) { return {state.latitude / kRadPerDeg, state.longitude / kRadPerDeg, state.height}; }
+Geodetic geodeticOf(const NavigationState& state) {
+  return {state.latitude / kRadPerDeg, state.longitude / kRadPerDeg, state.height};
+}
 
 bool isStraight(const Trajectory& trajectory, double begin, double end) {
   for (double time = begin; time < end; time += kStartEvery)
@@ -28,7 +30,8 @@ std::vector<PingPose> truePoses(const Aperture& aperture, const Trajectory& traj
     const double time = secondsBetween(0, ping);
     const TimedPose now = poseIn(aperture.map, ping, trajectory.at(time).state),
                     later = poseIn(aperture.map, ping, trajectory.at(time + aperture.interval).state);
-    poses.push_back({now.position, now.q_local_body.toRotationMatrix(), (later.position - now.position) / aperture.interval});
+    poses.push_back(
+        {now.position, now.q_local_body.toRotationMatrix(), (later.position - now.position) / aperture.interval});
   }
   return poses;
 }
@@ -49,15 +52,20 @@ Aperture apertureAt(double start, double duration, const Trajectory& trajectory,
 
 }  // namespace
 
-std::vector<Aperture> chooseApertures(const Scenario& scenario, const Trajectory& trajectory, const FocusSettings& settings, double skip, int count) {
-  const double duration = settings.aperture.duration > 0 ? settings.aperture.duration : apertureTime(settings, scenario.track.speed);
-  const double needed = duration + echoTime(settings.sonar) + settings.aperture.longest_gap;  // with solutions before and behind
+std::vector<Aperture> chooseApertures(const Scenario& scenario, const Trajectory& trajectory,
+                                      const FocusSettings& settings, double skip, int count) {
+  const double duration =
+      settings.aperture.duration > 0 ? settings.aperture.duration : apertureTime(settings, scenario.track.speed);
+  const double needed =
+      duration + echoTime(settings.sonar) + settings.aperture.longest_gap;  // with solutions before and behind
   std::vector<double> starts;
   for (double start = skip; start + needed <= scenario.duration; start += kStartEvery)
     if (isStraight(trajectory, start, start + needed)) starts.push_back(start);
   std::vector<Aperture> apertures;
   for (int i = 0; i < count && !starts.empty(); ++i)
-    apertures.push_back(apertureAt(starts[static_cast<std::size_t>((i + 0.5) / count * static_cast<double>(starts.size()))], duration, trajectory, settings));
+    apertures.push_back(
+        apertureAt(starts[static_cast<std::size_t>((i + 0.5) / count * static_cast<double>(starts.size()))], duration,
+                   trajectory, settings));
   return apertures;
 }
 

@@ -25,9 +25,10 @@ struct Aperture {
   std::vector<imaging::PingPose> truth;  ///< at the pings, in the frame
 };
 
-/// Apertures where the course is straight, spread evenly over the scored time; empty where there is no such stretch. `settings` say how long each is, their
-/// start left aside, and its pings.
-std::vector<Aperture> chooseApertures(const Scenario& scenario, const Trajectory& trajectory, const imaging::FocusSettings& settings, double skip, int count);
+/// Apertures where the course is straight, spread evenly over the scored time; empty where there is no such stretch.
+/// `settings` say how long each is, their start left aside, and its pings.
+std::vector<Aperture> chooseApertures(const Scenario& scenario, const Trajectory& trajectory,
+                                      const imaging::FocusSettings& settings, double skip, int count);
 
 /// Gathers solutions near one aperture.
 class ApertureTrack {

@@ -29,11 +29,14 @@ struct Estimate {
   double seconds = 0;  // of CPU
 };
 
-/// Surveys whose judge is the image: what a synthetic aperture sonar sees on their lines with each estimate of its track.
+/// Surveys whose judge is the image: what a synthetic aperture sonar sees on their lines with each estimate of its
+/// track.
 class ImagingSystem final : public System {
  public:
   ImagingSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make)
-      : scenarios_(readInsCampaign(campaign, folder, *this)), make_(make), trajectory_(scenarios_.front().track, duration) {
+      : scenarios_(readInsCampaign(campaign, folder, *this)),
+        make_(make),
+        trajectory_(scenarios_.front().track, duration) {
     std::string file;
     campaign.text("config", file);
     if (file.empty()) campaign.fail("config", "is missing; name a file of settings for focus");
@@ -41,7 +44,9 @@ class ImagingSystem final : public System {
     int windows = 4;
     campaign.integer("windows", windows, 1, 1000);
     apertures_ = chooseApertures(scenarios_.front(), trajectory_, settings_, skip, windows);
-    if (apertures_.empty()) campaign.fail("duration", fmt::format("is {} s but no aperture on a straight line is in it behind skip", duration));
+    if (apertures_.empty())
+      campaign.fail("duration",
+                    fmt::format("is {} s but no aperture on a straight line is in it behind skip", duration));
     for (const auto& name : estimators)
       if (name != kErrorFree && !make(name, configOf(scenarios_.front())))
         campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
@@ -59,22 +64,26 @@ class ImagingSystem final : public System {
         const auto poses = estimates[i].tracks[window].poses(settings_.sonar.altitude);
         if (!poses) continue;
         positions[i].push_back(imaging::horizontalError(*poses, apertures_[window].truth));
-        for (const auto& measure : imaging::imageMeasures(bench, *poses, settings_.sonar.wavelength())) reports[i].windows.back().push_back(measure);
+        for (const auto& measure : imaging::imageMeasures(bench, *poses, settings_.sonar.wavelength()))
+          reports[i].windows.back().push_back(measure);
       }
     }
-    for (std::size_t i = 0; i < estimators.size(); ++i) complete(reports[i], estimators[i], estimates[i], positions[i], recording.aiding.size());
+    for (std::size_t i = 0; i < estimators.size(); ++i)
+      complete(reports[i], estimators[i], estimates[i], positions[i], recording.aiding.size());
     return reports;
   }
 
   std::optional<FocusResult> images(std::size_t law, std::uint64_t seed, const std::string& folder) const override {
     const Aperture& aperture = apertures_.front();
-    FocusResult result{title + ", " + laws[law].name, settings_, imaging::targetPlaces(settings_), windowOf(aperture), {}};
+    FocusResult result{
+        title + ", " + laws[law].name, settings_, imaging::targetPlaces(settings_), windowOf(aperture), {}};
     FocusBench bench(settings_, aperture.times, aperture.truth, 1);
     result.trajectories.push_back(focusAlong(bench, aperture.truth, folder, "truth", false));
     const auto estimates = estimatesOf(scenarios_[law], simulate(scenarios_[law], trajectory_, seed));
     for (std::size_t i = 0; i < estimators.size(); ++i) {
       const auto poses = estimates[i].tracks.front().poses(settings_.sonar.altitude);
-      if (estimators[i] != kErrorFree && poses) result.trajectories.push_back(focusAlong(bench, *poses, folder, estimators[i], false));
+      if (estimators[i] != kErrorFree && poses)
+        result.trajectories.push_back(focusAlong(bench, *poses, folder, estimators[i], false));
     }
     return result;
   }
@@ -84,13 +93,17 @@ class ImagingSystem final : public System {
 
  private:
   static imaging::FocusWindow windowOf(const Aperture& aperture) {
-    const double duration = aperture.times.back(), length = (aperture.truth.back().position - aperture.truth.front().position).head<2>().norm();
-    return {aperture.start, duration, length / duration, static_cast<double>(aperture.times.size() - 1) / duration, aperture.times.size(), aperture.frame};
+    const double duration = aperture.times.back(),
+                 length = (aperture.truth.back().position - aperture.truth.front().position).head<2>().norm();
+    return {aperture.start,        duration,
+            length / duration,     static_cast<double>(aperture.times.size() - 1) / duration,
+            aperture.times.size(), aperture.frame};
   }
 
   std::vector<Estimate> estimatesOf(const Scenario& scenario, const Recording& recording) const {
     std::vector<Estimate> estimates;
-    for (const auto& name : estimators) estimates.push_back(name == kErrorFree ? errorFree(recording) : estimate(name, scenario, recording));
+    for (const auto& name : estimators)
+      estimates.push_back(name == kErrorFree ? errorFree(recording) : estimate(name, scenario, recording));
     return estimates;
   }
 
@@ -124,11 +137,12 @@ class ImagingSystem final : public System {
     return result;
   }
 
-  void complete(EstimatorReport& report, const std::string& name, const Estimate& estimate, const std::vector<double>& positions, std::size_t readings) const {
+  void complete(EstimatorReport& report, const std::string& name, const Estimate& estimate,
+                const std::vector<double>& positions, std::size_t readings) const {
     report.estimator = name;
     report.samples = positions.size();
-    report.diverged =
-        positions.empty() || !estimate.failure.empty() || !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
+    report.diverged = positions.empty() || !estimate.failure.empty() ||
+                      !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
     if (!positions.empty()) report.errors.emplace_back("position", towfish::summarize(positions));
     report.microseconds = 1e6 * estimate.seconds / static_cast<double>(std::max<std::size_t>(1, readings));
   }
@@ -142,7 +156,8 @@ class ImagingSystem final : public System {
 
 }  // namespace
 
-std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make) {
+std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string& folder,
+                                          const EstimatorFactory& make) {
   return std::make_unique<ImagingSystem>(campaign, folder, make);
 }
 

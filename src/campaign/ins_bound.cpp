@@ -36,8 +36,9 @@ class InsBound {
       : scenario_(scenario),
         trajectory_(trajectory),
         model_(scenario.parameters, trajectory.at(0).state),
-        information_{MeasurementInformation(scenario.sensors[0].noise), MeasurementInformation(scenario.sensors[1].noise),
-                     MeasurementInformation(scenario.sensors[2].noise), MeasurementInformation(scenario.sensors[3].noise)} {}
+        information_{
+            MeasurementInformation(scenario.sensors[0].noise), MeasurementInformation(scenario.sensors[1].noise),
+            MeasurementInformation(scenario.sensors[2].noise), MeasurementInformation(scenario.sensors[3].noise)} {}
 
   void follow(const Recording& recording, double skip, MeanBound<kStates>& scored, MeanBound<kStates>& outage) const {
     PosteriorBound<kStates> bound(model_.start().covariance.llt().solve(ErrorMatrix::Identity()));
@@ -61,12 +62,20 @@ class InsBound {
     const TruthSample truth = trajectory_.at(time);
     const auto sensor = labelled.reading.sensor;
     Vector<3> factor;
-    for (int row = 0; row < 3; ++row) factor(row) = information_[static_cast<std::size_t>(sensor)].of(labelled.variance(row), time);
+    for (int row = 0; row < 3; ++row)
+      factor(row) = information_[static_cast<std::size_t>(sensor)].of(labelled.variance(row), time);
     switch (sensor) {
       case Sensor::Gps: bound.measurement<3>({model_.gps(truth.state, truth.state, Errors::Zero())}, {factor}); break;
-      case Sensor::Dvl: bound.measurement<3>({model_.dvl(truth.state, truth.rateBody(), Vector<3>::Zero(), Errors::Zero())}, {factor}); break;
-      case Sensor::Depth: bound.measurement<1>({model_.depth(truth.state, 0, Errors::Zero())}, {factor.head<1>()}); break;
-      case Sensor::Dpc: bound.measurement<2>({model_.dpc(truth.state, truth.rateBody(), labelled.reading.array, Errors::Zero())}, {factor.head<2>()}); break;
+      case Sensor::Dvl:
+        bound.measurement<3>({model_.dvl(truth.state, truth.rateBody(), Vector<3>::Zero(), Errors::Zero())}, {factor});
+        break;
+      case Sensor::Depth:
+        bound.measurement<1>({model_.depth(truth.state, 0, Errors::Zero())}, {factor.head<1>()});
+        break;
+      case Sensor::Dpc:
+        bound.measurement<2>({model_.dpc(truth.state, truth.rateBody(), labelled.reading.array, Errors::Zero())},
+                             {factor.head<2>()});
+        break;
     }
   }
 
@@ -89,7 +98,8 @@ bool differsByRun(const Scenario& scenario) {
 }  // namespace
 
 Named<double> insBound(const Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds) {
-  if (scenario.parameters.dvl_scale > 0 || scenario.parameters.dvl_misalignment > 0) return {};  // not among the 27 states
+  if (scenario.parameters.dvl_scale > 0 || scenario.parameters.dvl_misalignment > 0)
+    return {};  // not among the 27 states
   const Trajectory trajectory(scenario.track, scenario.duration);
   const InsBound bound(scenario, trajectory);
   MeanBound<kStates> scored, outage;

@@ -20,12 +20,15 @@ LawInfo readLaw(YamlSection& item, Scenario& scenario) {
   item.text("name", name);
   scenario.readDpc(item.section("dpc"));
   if (item.has("noise"))
-    scenario.sensor(Sensor::Gps).noise = scenario.sensor(Sensor::Dvl).noise = scenario.sensor(Sensor::Dpc).noise = Scenario::readNoise(item, "noise");
-  for (const auto& outage : Scenario::readOutages(item, "gps_outages")) scenario.sensor(Sensor::Gps).outages.push_back(outage);
+    scenario.sensor(Sensor::Gps).noise = scenario.sensor(Sensor::Dvl).noise = scenario.sensor(Sensor::Dpc).noise =
+        Scenario::readNoise(item, "noise");
+  for (const auto& outage : Scenario::readOutages(item, "gps_outages"))
+    scenario.sensor(Sensor::Gps).outages.push_back(outage);
   item.finish();
   LawInfo law = lawInfo(name, scenario.sensor(Sensor::Gps).noise, {});
   if (const auto& outages = scenario.sensor(Sensor::Gps).outages; !outages.empty()) {
-    for (const auto& outage : outages) law.description += fmt::format(", no GPS from {} to {} s", outage.begin, outage.end);
+    for (const auto& outage : outages)
+      law.description += fmt::format(", no GPS from {} to {} s", outage.begin, outage.end);
     law.epsilon = law.K = std::nullopt;
   }
   return law;
@@ -42,7 +45,9 @@ std::vector<Scenario> readInsCampaign(YamlSection& campaign, const std::string& 
   system.duration = scenario.duration;
   system.skip = 120;
   campaign.number("skip", system.skip, {0, 1e6});
-  if (system.skip >= system.duration) campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", system.skip, system.duration));
+  if (system.skip >= system.duration)
+    campaign.fail("skip",
+                  fmt::format("is {} but must be less than a run, which lasts {} s", system.skip, system.duration));
   campaign.texts("estimators", system.estimators);
   if (system.estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
   std::vector<Scenario> scenarios;
@@ -65,7 +70,8 @@ void replay(Estimator& estimator, const Recording& recording, Output& output, co
   estimator.start(recording.start, 0);
   auto next = recording.aiding.begin();
   for (const auto& reading : recording.imu) {
-    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator.process(next->reading, output);
+    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next)
+      estimator.process(next->reading, output);
     estimator.process(reading, output);
     after();
   }

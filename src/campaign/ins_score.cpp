@@ -31,7 +31,8 @@ void Score::add(const TruthSample& truth, const Solution& solution) {
   Vector<9> error;
   error << solution.state.velocity_nav - truth.state.velocity_nav, displacement(truth.state, solution.state),
       attitudeError(solution.state.q_nav_body, truth.state.q_nav_body);
-  const Vector<3> velocity = error.segment<3>(kVelocity), position = error.segment<3>(kPosition), phi = error.segment<3>(kAttitude);
+  const Vector<3> velocity = error.segment<3>(kVelocity), position = error.segment<3>(kPosition),
+                  phi = error.segment<3>(kAttitude);
   for (const auto& outage : scenario_.sensor(Sensor::Gps).outages)
     if (std::abs(time - outage.end) < kSame) errors_["outage"].push_back(position.head<2>().norm());
   trace(solution, time, error);
@@ -55,7 +56,8 @@ void Score::add(const TruthSample& truth, const Solution& solution) {
 
 void Score::trace(const Solution& solution, double time, const Vector<9>& error) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  const Vector<9> variance = solution.covariance ? Vector<9>(solution.covariance->diagonal()) : Vector<9>(Vector<9>::Constant(unknown));
+  const Vector<9> variance =
+      solution.covariance ? Vector<9>(solution.covariance->diagonal()) : Vector<9>(Vector<9>::Constant(unknown));
   const auto norm = [&](int first, int size) { return error.segment(first, size).norm(); };
   const auto sum = [&](int first, int size) { return variance.segment(first, size).sum(); };
   trace_.time.push_back(time);
@@ -70,7 +72,9 @@ void Score::trace(const Solution& solution, double time, const Vector<9>& error)
 }
 
 void Score::addConsistency(double time, const Vector<9>& error, const Matrix<9>& P) {
-  const auto group = [&](State first) { return normalisedSquare(error.segment<3>(first), P.block<3, 3>(first, first)); };
+  const auto group = [&](State first) {
+    return normalisedSquare(error.segment<3>(first), P.block<3, 3>(first, first));
+  };
   nees_["velocity"].push_back(group(kVelocity));
   nees_["position"].push_back(group(kPosition));
   nees_["attitude"].push_back(group(kAttitude));
@@ -109,7 +113,8 @@ EstimatorReport Score::report(const std::string& name) const {
   report.locked_out = lock_out_.lockedOut();
   if (const auto scored = errors_.find("position"); scored != errors_.end()) report.samples = scored->second.size();
   for (const char* group : {"position", "height", "velocity", "tilt", "heading", "outage"})
-    if (const auto found = errors_.find(group); found != errors_.end()) report.errors.emplace_back(group, towfish::summarize(found->second));
+    if (const auto found = errors_.find(group); found != errors_.end())
+      report.errors.emplace_back(group, towfish::summarize(found->second));
   for (const auto& [group, values] : nees_) report.nees.emplace_back(group, mean(values));
   for (const auto sensor : {Sensor::Gps, Sensor::Dvl, Sensor::Depth, Sensor::Dpc})
     if (const auto& values = nis_[static_cast<std::size_t>(sensor)]; !values.empty() && !nees_.empty())

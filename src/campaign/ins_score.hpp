@@ -14,7 +14,8 @@ namespace sas_motion::ins {
 /// Scores one solution over a run. Its trace has the start too, and weights and NIS of one sensor.
 class Score {
  public:
-  Score(const Scenario& scenario, double skip, const towfish::ApertureOptions& aperture = {}, Sensor traced = Sensor::Gps)
+  Score(const Scenario& scenario, double skip, const towfish::ApertureOptions& aperture = {},
+        Sensor traced = Sensor::Gps)
       : scenario_(scenario), skip_(skip), aperture_(aperture), traced_(traced) {
     trace_.nees_degrees = 9;
     trace_.nis_degrees = rowsOf(traced);

@@ -30,7 +30,11 @@ struct Scored {
 class RunScoring {
  public:
   RunScoring(const Scenario& scenario, double skip, std::uint64_t seed, const EstimatorFactory& make)
-      : scenario_(scenario), trajectory_(scenario.track, scenario.duration), recording_(simulate(scenario, trajectory_, seed)), skip_(skip), make_(make) {}
+      : scenario_(scenario),
+        trajectory_(scenario.track, scenario.duration),
+        recording_(simulate(scenario, trajectory_, seed)),
+        skip_(skip),
+        make_(make) {}
 
   std::vector<Scored> of(const std::vector<std::string>& names) const {
     std::vector<Scored> all;
@@ -41,7 +45,8 @@ class RunScoring {
       for (auto& scored : all)
         if (scored.solution && scored.solution->filter == kind) mine.push_back(&scored);
       if (mine.empty()) continue;
-      withFilter(kind, config, [&](const auto& filter, const NavigatorOptions& options) { follow(filter, options, mine); });
+      withFilter(kind, config,
+                 [&](const auto& filter, const NavigatorOptions& options) { follow(filter, options, mine); });
     }
     for (auto& scored : all)
       if (!scored.solution) follow(*make_(scored.name, config), scored);
@@ -57,19 +62,22 @@ class RunScoring {
     const double begin = cpuSeconds();
     for (const auto& reading : recording_.imu) {
       const auto first = next;
-      for (; next != recording_.aiding.end() && next->reading.stamp <= reading.stamp; ++next) navigator.add(next->reading);
+      for (; next != recording_.aiding.end() && next->reading.stamp <= reading.stamp; ++next)
+        navigator.add(next->reading);
       navigator.add(reading);
       const double since = cpuSeconds();
       note(navigator, &*first, scored);
       scoring += cpuSeconds() - since;
     }
     const double seconds = cpuSeconds() - begin - scoring;
-    for (auto* one : scored) one->microseconds = 1e6 * seconds / static_cast<double>(std::max<std::size_t>(1, recording_.aiding.size()));
+    for (auto* one : scored)
+      one->microseconds = 1e6 * seconds / static_cast<double>(std::max<std::size_t>(1, recording_.aiding.size()));
   }
 
   /// `labelled` are the readings that the navigator audited, in order.
   template <class Filter>
-  void note(const Navigator<Filter>& navigator, const LabelledAiding* labelled, const std::vector<Scored*>& scored) const {
+  void note(const Navigator<Filter>& navigator, const LabelledAiding* labelled,
+            const std::vector<Scored*>& scored) const {
     const double time = secondsBetween(0, navigator.stamp());
     for (std::size_t i = 0; i < navigator.audits().size(); ++i)
       for (auto* one : scored) one->score.add(navigator.audits()[i], labelled[i]);
@@ -89,10 +97,13 @@ class RunScoring {
     Output output;
     const double begin = cpuSeconds();
     replay(estimator, recording_, output, [] {});
-    scored.microseconds = 1e6 * (cpuSeconds() - begin) / static_cast<double>(std::max<std::size_t>(1, recording_.aiding.size()));
+    scored.microseconds =
+        1e6 * (cpuSeconds() - begin) / static_cast<double>(std::max<std::size_t>(1, recording_.aiding.size()));
     for (const auto& solution : output.solutions)
-      if (const double time = secondsBetween(0, solution.stamp); isScored(time)) scored.score.add(trajectory_.at(time), solution);
-    for (std::size_t i = 0; i < std::min(output.audits.size(), recording_.aiding.size()); ++i) scored.score.add(output.audits[i], recording_.aiding[i]);
+      if (const double time = secondsBetween(0, solution.stamp); isScored(time))
+        scored.score.add(trajectory_.at(time), solution);
+    for (std::size_t i = 0; i < std::min(output.audits.size(), recording_.aiding.size()); ++i)
+      scored.score.add(output.audits[i], recording_.aiding[i]);
   }
 
   const Scenario& scenario_;
@@ -108,7 +119,8 @@ class InsSystem final : public System {
       : make_(make), scenarios_(readInsCampaign(campaign, folder, *this)) {
     dimension = kStates;
     for (const auto& name : estimators)
-      if (!findSolution(name) && !make_(name, {})) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
+      if (!findSolution(name) && !make_(name, {}))
+        campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
   }
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
@@ -122,11 +134,14 @@ class InsSystem final : public System {
 
   Named<Trace> trace(std::size_t law, std::uint64_t seed) const override {
     Named<Trace> traces;
-    for (const auto& scored : RunScoring(scenarios_[law], skip, seed, make_).of(estimators)) traces.emplace_back(scored.name, scored.score.trace());
+    for (const auto& scored : RunScoring(scenarios_[law], skip, seed, make_).of(estimators))
+      traces.emplace_back(scored.name, scored.score.trace());
     return traces;
   }
 
-  Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override { return insBound(scenarios_[law], skip, seeds); }
+  Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override {
+    return insBound(scenarios_[law], skip, seeds);
+  }
 
  private:
   EstimatorFactory make_;

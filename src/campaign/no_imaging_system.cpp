@@ -5,7 +5,9 @@
 namespace sas_motion {
 
 std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string&, const ins::EstimatorFactory&) {
-  campaign.fail("system", "is imaging, which this build has not; install Highway and KissFFT (libhwy-dev, libkissfft-dev) and build again");
+  campaign.fail(
+      "system",
+      "is imaging, which this build has not; install Highway and KissFFT (libhwy-dev, libkissfft-dev) and build again");
 }
 
 }  // namespace sas_motion

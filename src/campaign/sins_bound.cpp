@@ -23,7 +23,8 @@ constexpr double kSmall = 1e-2;  // of a unit, for differences
 Errors unitsAt(const NavigationState& state) {
   const auto [M, N] = earth::radii(state.latitude, state.height);
   Errors unit;
-  unit << 1 / M, 1 / (N * std::cos(state.latitude)), 1, Errors::Constant(1e-3).head<7>(), Vector<3>::Constant(1e-6), Vector<6>::Constant(1e-3);
+  unit << 1 / M, 1 / (N * std::cos(state.latitude)), 1, Errors::Constant(1e-3).head<7>(), Vector<3>::Constant(1e-6),
+      Vector<6>::Constant(1e-3);
   return unit;
 }
 
@@ -51,8 +52,8 @@ class MeanSquares {
   int count_ = 0;
 };
 
-/// The recursion along the true trajectory, at the errors of an INS that is right. Heading and tilt enter by the start alone, so that large ones have
-/// the same bound.
+/// The recursion along the true trajectory, at the errors of an INS that is right. Heading and tilt enter by the start
+/// alone, so that large ones have the same bound.
 class SinsBound {
  public:
   explicit SinsBound(const Scenario& scenario)
@@ -64,8 +65,9 @@ class SinsBound {
         depth_(scenario.depth.noise) {}
 
   void follow(const ins::Recording& recording, double skip, MeanSquares& scored, MeanSquares& end) const {
-    const ErrorMatrix P =
-        unit_.cwiseInverse().asDiagonal() * startBelief<kStates>(scenario_.parameters, trajectory_.at(0).state).covariance * unit_.cwiseInverse().asDiagonal();
+    const ErrorMatrix P = unit_.cwiseInverse().asDiagonal() *
+                          startBelief<kStates>(scenario_.parameters, trajectory_.at(0).state).covariance *
+                          unit_.cwiseInverse().asDiagonal();
     PosteriorBound<kStates> bound(P.llt().solve(ErrorMatrix::Identity()));
     std::size_t next = 1;
     double now = 0;
@@ -81,9 +83,11 @@ class SinsBound {
 
  private:
   Vector<9> errorsOfSolution(const PosteriorBound<kStates>& bound, double time) const {
-    const Matrix<9, kStates> T = View<kStates>(trajectory_.at(time).state).solutionByError(Errors::Zero()) * unit_.asDiagonal();
+    const Matrix<9, kStates> T =
+        View<kStates>(trajectory_.at(time).state).solutionByError(Errors::Zero()) * unit_.asDiagonal();
     const auto covariance = bound.covariance();
-    return covariance ? Vector<9>((T * *covariance * T.transpose()).diagonal()) : Vector<9>(Vector<9>::Constant(std::numeric_limits<double>::quiet_NaN()));
+    return covariance ? Vector<9>((T * *covariance * T.transpose()).diagonal())
+                      : Vector<9>(Vector<9>::Constant(std::numeric_limits<double>::quiet_NaN()));
   }
 
   /// Readings of the unit that end after `to` are left for the next step.
@@ -142,8 +146,12 @@ Named<double> sinsBound(const sins::Scenario& scenario, double skip, const std::
     bound.follow(sins::simulate(scenario, trajectory, seed), skip, scored, end);
     if (!genie) break;
   }
-  return {{"position", scored.rms(3, 2)}, {"height", scored.rms(5, 1)},  {"velocity", scored.rms(0, 3)},
-          {"tilt", scored.rms(6, 2)},     {"heading", scored.rms(8, 1)}, {"drift_percent", 100 * end.rms(3, 2) / (scenario.track.speed * scenario.duration)}};
+  return {{"position", scored.rms(3, 2)},
+          {"height", scored.rms(5, 1)},
+          {"velocity", scored.rms(0, 3)},
+          {"tilt", scored.rms(6, 2)},
+          {"heading", scored.rms(8, 1)},
+          {"drift_percent", 100 * end.rms(3, 2) / (scenario.track.speed * scenario.duration)}};
 }
 
 }  // namespace sas_motion

@@ -17,7 +17,8 @@ namespace {
 using namespace sins;
 
 constexpr double kScoreEvery = 0.1;  // [s]
-// Who has converged: the heading is within three standard deviations of large_angle's bound, and the velocity did not run away.
+// Who has converged: the heading is within three standard deviations of large_angle's bound, and the velocity did not
+// run away.
 constexpr double kAlignedHeading = 2 * kRadPerDeg, kAlignedVelocity = 0.3;  // [rad, m/s]
 constexpr double kAlignedFor = 30;                                          // to the end of the run [s]
 const towfish::ApertureOptions kAperture{66, 0.015, 0.1};                   // 3.3 s at 3 m/s
@@ -48,7 +49,8 @@ class Follower {
     double seconds = 0;
     for (const auto& reading : recording.imu) {
       const double begin = cpuSeconds();
-      for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator.process(next->reading, output);
+      for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next)
+        estimator.process(next->reading, output);
       estimator.process(reading, output);
       seconds += cpuSeconds() - begin;
       take(output);
@@ -106,7 +108,8 @@ class SinsSystem final : public System {
     duration = scenario.duration;
     skip = 60;
     campaign.number("skip", skip, {0, 1e6});
-    if (skip >= duration) campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
+    if (skip >= duration)
+      campaign.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
     campaign.integer("particles", particles_.particles, 1, 1'000'000);
     particles = particles_.particles;
     campaign.integer("threads", particles_.threads, 1, 1024);
@@ -115,24 +118,31 @@ class SinsSystem final : public System {
     campaign.texts("estimators", estimators);
     if (estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
     for (const auto& name : estimators)
-      if (!make_(name, {})) campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
+      if (!make_(name, {}))
+        campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
     for (auto& item : campaign.list("laws")) readLaw(item, scenario);
     if (laws.empty()) campaign.fail("laws", "is missing; list at least one");
   }
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
     std::vector<EstimatorReport> reports;
-    forEachEstimator(law, seed, [&](const std::string& name, const Follower& follower) { reports.push_back(follower.report(name)); });
+    forEachEstimator(law, seed, [&](const std::string& name, const Follower& follower) {
+      reports.push_back(follower.report(name));
+    });
     return reports;
   }
 
   Named<Trace> trace(std::size_t law, std::uint64_t seed) const override {
     Named<Trace> traces;
-    forEachEstimator(law, seed, [&](const std::string& name, const Follower& follower) { traces.emplace_back(name, follower.trace()); });
+    forEachEstimator(law, seed, [&](const std::string& name, const Follower& follower) {
+      traces.emplace_back(name, follower.trace());
+    });
     return traces;
   }
 
-  Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override { return sinsBound(cases_[law].scenario, skip, seeds); }
+  Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override {
+    return sinsBound(cases_[law].scenario, skip, seeds);
+  }
 
  private:
   std::unique_ptr<ins::Estimator> make(const std::string& name, const Case& one, std::uint64_t seed) const {

@@ -29,13 +29,15 @@ std::string whatRunsDependOn(const std::string& file) {
   std::string all = YAML::Dump(root);
   for (const auto& campaign : root["campaigns"])
     for (const char* key : {"scenario", "config"})
-      if (campaign[key] && campaign[key].IsScalar()) all += contents(std::filesystem::path(file).parent_path() / campaign[key].as<std::string>());
+      if (campaign[key] && campaign[key].IsScalar())
+        all += contents(std::filesystem::path(file).parent_path() / campaign[key].as<std::string>());
   return all;
 }
 
 }  // namespace
 
-Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters, const ins::EstimatorFactory& make_ins,
+Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make,
+                      const usbl::FitterFactory& fitters, const ins::EstimatorFactory& make_ins,
                       const sins::EstimatorFactory& make_sins) {
   auto yaml = YamlSection::fromFile(file);
   const std::string folder = std::filesystem::path(file).parent_path();
@@ -66,7 +68,9 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
     else if (kind == "sins_dvl")
       suite.campaigns.push_back(makeSinsSystem(item, folder, make_sins));
     else
-      item.fail("system", fmt::format("is '{}' but must be towfish, constant_velocity, usbl, ins_gps_dvl, imaging or sins_dvl", kind));
+      item.fail(
+          "system",
+          fmt::format("is '{}' but must be towfish, constant_velocity, usbl, ins_gps_dvl, imaging or sins_dvl", kind));
     suite.campaigns.back()->title = name;
     suite.campaigns.back()->kind = kind;
     item.finish();

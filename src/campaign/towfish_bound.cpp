@@ -24,17 +24,18 @@ struct Told {
 
   /// Whether two runs are told the same.
   bool alike(const SimulatedRun& a, const SimulatedRun& b) const {
-    return !process.genie && std::equal(a.measurements().begin(), a.measurements().end(), b.measurements().begin(), b.measurements().end(),
-                                        [this](const LabelledMeasurement& x, const LabelledMeasurement& y) {
-                                          return x.z.stamp == y.z.stamp && x.z.sensor == y.z.sensor && factors(x) == factors(y);
-                                        });
+    return !process.genie &&
+           std::equal(a.measurements().begin(), a.measurements().end(), b.measurements().begin(),
+                      b.measurements().end(), [this](const LabelledMeasurement& x, const LabelledMeasurement& y) {
+                        return x.z.stamp == y.z.stamp && x.z.sensor == y.z.sensor && factors(x) == factors(y);
+                      });
   }
 };
 
 Told toldOf(const Scenario& scenario) {
   const auto& sensors = scenario.sensors;
-  return {{MeasurementInformation(sensors[0].noise), MeasurementInformation(sensors[1].noise), MeasurementInformation(sensors[2].noise),
-           MeasurementInformation(sensors[3].noise)},
+  return {{MeasurementInformation(sensors[0].noise), MeasurementInformation(sensors[1].noise),
+           MeasurementInformation(sensors[2].noise), MeasurementInformation(sensors[3].noise)},
           processInformation(scenario.process, kStates, scenario.step)};
 }
 
@@ -99,14 +100,18 @@ Named<double> towfishBound(const Scenario& scenario, double skip, const std::vec
   std::vector<SimulatedRun> runs;
   runs.reserve(seeds.size());
   for (const auto seed : seeds) runs.emplace_back(scenario, seed);
-  const bool once = std::all_of(runs.begin(), runs.end(), [&](const SimulatedRun& run) { return told.alike(runs.front(), run); });
+  const bool once =
+      std::all_of(runs.begin(), runs.end(), [&](const SimulatedRun& run) { return told.alike(runs.front(), run); });
   const RunBound bound(scenario, told, runs);
   MeanBound<kStates> mean;
   for (const auto& run : runs) {
     bound.follow(run, Simulator::kStart + stampFromSeconds(skip), mean);
     if (once) break;
   }
-  return boundsOf<kStates>(mean, {{"position", {kNorth, kEast}}, {"heading", {kHeading}}, {"speed", {kSpeed}}, {"current", {kCurrentNorth, kCurrentEast}}});
+  return boundsOf<kStates>(mean, {{"position", {kNorth, kEast}},
+                                  {"heading", {kHeading}},
+                                  {"speed", {kSpeed}},
+                                  {"current", {kCurrentNorth, kCurrentEast}}});
 }
 
 }  // namespace sas_motion

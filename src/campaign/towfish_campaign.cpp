@@ -25,8 +25,8 @@ CampaignLaw readLaw(YamlSection& yaml) {
   return law;
 }
 
-std::unique_ptr<Estimator> makeNamed(const std::string& name, const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run,
-                                     const EstimatorFactory& make) {
+std::unique_ptr<Estimator> makeNamed(const std::string& name, const Campaign& campaign, const Scenario& scenario,
+                                     const SimulatedRun& run, const EstimatorFactory& make) {
   if (name == kOracle) return makeOracle(campaign, run);
   if (name == kBayesReference) return makeBayesReference(campaign, scenario);
   return make(name, campaign.config);
@@ -56,7 +56,8 @@ Campaign Campaign::read(YamlSection& yaml, const std::string& folder) {
   if (campaign.estimators.empty()) yaml.fail("estimators", "is missing; list at least one");
   yaml.number("skip", campaign.skip, {0, 1e6});
   if (campaign.skip >= campaign.scenario.duration)
-    yaml.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", campaign.skip, campaign.scenario.duration));
+    yaml.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", campaign.skip,
+                                  campaign.scenario.duration));
   for (auto& item : yaml.list("laws")) campaign.laws.push_back(readLaw(item));
   if (campaign.laws.empty()) campaign.laws.push_back({"as in the scenario", {}, {}, {}});
   return campaign;
@@ -75,8 +76,8 @@ Scenario Campaign::scenarioUnder(const CampaignLaw& law) const {
   return changed;
 }
 
-double estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
-                const Listener& listen) {
+double estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name,
+                const EstimatorFactory& make, const Listener& listen) {
   constexpr std::size_t kPart = 256;  // measurements
   const bool oracle = name == kOracle;
   const auto estimator = makeNamed(name, campaign, scenario, run, make);

@@ -20,7 +20,8 @@ double errorRatio(const Estimate& estimate, const StateVector& truth) {
   return (error.head<2>().array().abs() / estimate.belief.covariance.diagonal().head<2>().array().sqrt()).maxCoeff();
 }
 
-std::optional<double> total(const std::array<Detection, kSensors>& detection, std::optional<double> (Detection::*share)() const) {
+std::optional<double> total(const std::array<Detection, kSensors>& detection,
+                            std::optional<double> (Detection::*share)() const) {
   Detection all;
   for (const auto& d : detection) {
     all.labelled += d.labelled;
@@ -56,11 +57,13 @@ class RunScore {
     for (int i = 0; i < kGroups; ++i) {
       const auto group = static_cast<Group>(i);
       if (scores.error[group]) report.errors.emplace_back(groupName(group), *scores.error[group]);
-      if (scores.nees[group]) report.nees.emplace_back(groupName(group), scores.nees[group]->mean / scores.nees[group]->degrees);
+      if (scores.nees[group])
+        report.nees.emplace_back(groupName(group), scores.nees[group]->mean / scores.nees[group]->degrees);
     }
     if (scores.nees_full) report.nees.emplace_back("full", scores.nees_full->mean / kStates);
     for (std::size_t i = 0; i < kSensors; ++i)
-      if (scores.nis[i]) report.nis.emplace_back(sensorName(static_cast<Sensor>(i)), scores.nis[i]->mean / scores.nis[i]->degrees);
+      if (scores.nis[i])
+        report.nis.emplace_back(sensorName(static_cast<Sensor>(i)), scores.nis[i]->mean / scores.nis[i]->degrees);
     report.aperture_across = scores.aperture.across;
     if (scores.aperture.windows > 0) report.aperture_wavelengths = scores.aperture.across / scores.aperture.wavelength;
     report.precision = total(scores.detection, &Detection::precision);
@@ -81,12 +84,14 @@ void record(const SimulatedRun& run, Stamp from, const Output& output, Trace& tr
     if (estimate.stamp < from) continue;
     const Reference truth = run.at(estimate.stamp);
     trace.time.push_back(secondsBetween(Simulator::kStart, estimate.stamp));
-    const StateVector error = Model::difference(estimate.belief.mean, truth.state), variance = estimate.belief.covariance.diagonal();
+    const StateVector error = Model::difference(estimate.belief.mean, truth.state),
+                      variance = estimate.belief.covariance.diagonal();
     trace.error.push_back(error.head<2>().norm());
     trace.sigma3.push_back(3 * std::sqrt(variance.head<2>().sum()));
     trace.add(groupName(kHeadingGroup), error(kHeading), variance(kHeading));
     trace.add(groupName(kSpeedGroup), error(kSpeed), variance(kSpeed));
-    trace.add(groupName(kCurrentGroup), error.segment<2>(kCurrentNorth).norm(), variance.segment<2>(kCurrentNorth).sum());
+    trace.add(groupName(kCurrentGroup), error.segment<2>(kCurrentNorth).norm(),
+              variance.segment<2>(kCurrentNorth).sum());
     trace.nees.push_back(normalisedSquare(estimate, truth));
   }
   for (const auto& audit : output.audits) {
@@ -100,7 +105,8 @@ void record(const SimulatedRun& run, Stamp from, const Output& output, Trace& tr
 
 class TowfishSystem final : public System {
  public:
-  TowfishSystem(YamlSection& section, const std::string& folder, EstimatorFactory make) : campaign_(Campaign::read(section, folder)), make_(std::move(make)) {
+  TowfishSystem(YamlSection& section, const std::string& folder, EstimatorFactory make)
+      : campaign_(Campaign::read(section, folder)), make_(std::move(make)) {
     dimension = kStates;
     duration = campaign_.scenario.duration;
     skip = campaign_.skip;
@@ -117,9 +123,11 @@ class TowfishSystem final : public System {
     std::vector<EstimatorReport> reports;
     for (const auto& name : estimators) {
       RunScore score(run, firstScored());
-      const double seconds = estimate(campaign_, scenario, run, name, make_, [&](const Output& output) { score.take(output); });
+      const double seconds =
+          estimate(campaign_, scenario, run, name, make_, [&](const Output& output) { score.take(output); });
       reports.push_back(score.report(name));
-      reports.back().microseconds = 1e6 * seconds / static_cast<double>(std::max<std::size_t>(1, run.measurements().size()));
+      reports.back().microseconds =
+          1e6 * seconds / static_cast<double>(std::max<std::size_t>(1, run.measurements().size()));
     }
     return reports;
   }
@@ -132,7 +140,8 @@ class TowfishSystem final : public System {
       Trace& trace = traces.emplace_back(name, Trace{}).second;
       trace.nees_degrees = kStates;
       trace.nis_degrees = rowsOf(Sensor::Position);
-      estimate(campaign_, scenario, run, name, make_, [&](const Output& output) { record(run, firstScored(), output, trace); });
+      estimate(campaign_, scenario, run, name, make_,
+               [&](const Output& output) { record(run, firstScored(), output, trace); });
     }
     return traces;
   }
@@ -157,7 +166,8 @@ class TowfishSystem final : public System {
 
 }  // namespace
 
-std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make) {
+std::unique_ptr<System> makeTowfishSystem(YamlSection& campaign, const std::string& folder,
+                                          const EstimatorFactory& make) {
   return std::make_unique<TowfishSystem>(campaign, folder, make);
 }
 
@@ -166,7 +176,8 @@ LawInfo lawInfo(const std::string& name, const NoiseMix& measurement, const Nois
   if (!process.laws.empty()) info.description += ", process " + process.name();
   if (info.name.empty()) info.name = info.description;
   const auto gaussian = [](const NoiseMix& mix) {
-    return std::all_of(mix.laws.begin(), mix.laws.end(), [](const NoiseLaw& law) { return law.kind == NoiseLaw::Kind::Gaussian; });
+    return std::all_of(mix.laws.begin(), mix.laws.end(),
+                       [](const NoiseLaw& law) { return law.kind == NoiseLaw::Kind::Gaussian; });
   };
   if (gaussian(measurement) && gaussian(process)) info.epsilon = 0, info.K = 1;
   if (gaussian(process) && measurement.laws.size() == 1 && measurement.laws[0].kind == NoiseLaw::Kind::Contaminated) {

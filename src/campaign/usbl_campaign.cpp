@@ -92,7 +92,9 @@ Output fitted(const Campaign& campaign, const std::vector<LabelledPing>& pings, 
   output.weights.resize(pings.size(), Vector<kChannels>::Constant(kNone));
   output.nis.assign(pings.size(), kNone);
   if (fit.failure.empty() && !pings.empty())
-    output.estimates.push_back({timeOf(pings.back().ping), {fit.x.head<kStates>(), fit.covariance.topLeftCorner<kStates, kStates>()}, fit.scale.cwiseAbs2()});
+    output.estimates.push_back({timeOf(pings.back().ping),
+                                {fit.x.head<kStates>(), fit.covariance.topLeftCorner<kStates, kStates>()},
+                                fit.scale.cwiseAbs2()});
   return output;
 }
 
@@ -107,7 +109,8 @@ Campaign Campaign::read(YamlSection& yaml, const std::string& folder) {
   const double duration = campaign.scenario.duration;
   campaign.skip = std::max(0.0, duration - kScored);
   yaml.number("skip", campaign.skip, {0, 1e6});
-  if (campaign.skip >= duration) yaml.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", campaign.skip, duration));
+  if (campaign.skip >= duration)
+    yaml.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", campaign.skip, duration));
   for (auto& item : yaml.list("laws")) campaign.laws.push_back(readLaw(item, campaign.scenario));
   if (campaign.laws.empty()) campaign.laws.push_back({"", campaign.scenario.noise[0], campaign.scenario.stated_factor});
   return campaign;
@@ -122,10 +125,12 @@ Scenario Campaign::scenarioUnder(const CampaignLaw& law) const {
 
 bool isEstimator(const std::string& name, const FitterFactory& fitters) {
   const auto& filters = filterNames();
-  return name == kOracle || std::find(filters.begin(), filters.end(), name) != filters.end() || (fitters && fitters(name));
+  return name == kOracle || std::find(filters.begin(), filters.end(), name) != filters.end() ||
+         (fitters && fitters(name));
 }
 
-Output estimate(const Campaign& campaign, const std::vector<LabelledPing>& pings, const std::string& name, const FitterFactory& fitters) {
+Output estimate(const Campaign& campaign, const std::vector<LabelledPing>& pings, const std::string& name,
+                const FitterFactory& fitters) {
   const Fitter fitter = fitters ? fitters(name) : Fitter();
   return fitter ? fitted(campaign, pings, fitter) : filtered(campaign, pings, name);
 }

@@ -31,7 +31,9 @@ State errorOf(const Gaussian<kStates>& belief, const State& truth) {
   return error;
 }
 
-double normalisedSquare(const Gaussian<kStates>& belief, const State& error) { return error.dot(belief.covariance.llt().solve(error)); }
+double normalisedSquare(const Gaussian<kStates>& belief, const State& error) {
+  return error.dot(belief.covariance.llt().solve(error));
+}
 
 template <int Size>
 double normalisedPart(const Gaussian<kStates>& belief, const State& error, int first) {
@@ -62,7 +64,8 @@ class Score {
     report.locked_out = wrong_at_end_;
     report.samples = full_.size();
     const auto names = sizesOf(State::Zero());
-    for (std::size_t i = 0; i < errors_.size(); ++i) report.errors.emplace_back(names[i].first, towfish::summarize(errors_[i]));
+    for (std::size_t i = 0; i < errors_.size(); ++i)
+      report.errors.emplace_back(names[i].first, towfish::summarize(errors_[i]));
     report.nees = {{"full", mean(full_) / kStates}, {"mounting", mean(mounting_) / 3}, {"lever", mean(lever_) / 3}};
     return report;
   }
@@ -82,10 +85,12 @@ class UsblSystem final : public System {
     skip = campaign_.skip;
     estimators = campaign_.estimators;
     for (const auto& estimator : estimators)
-      if (!isEstimator(estimator, fitters_)) section.fail("estimators", fmt::format("names '{}', which is no estimator of a calibration", estimator));
+      if (!isEstimator(estimator, fitters_))
+        section.fail("estimators", fmt::format("names '{}', which is no estimator of a calibration", estimator));
     for (const auto& law : campaign_.laws) {
       laws.push_back(lawInfo(law.name, law.noise, {}));
-      if (law.stated_factor != 1) laws.back().description += fmt::format(", stated variance times {:g}", law.stated_factor);
+      if (law.stated_factor != 1)
+        laws.back().description += fmt::format(", stated variance times {:g}", law.stated_factor);
     }
   }
 
@@ -116,7 +121,8 @@ class UsblSystem final : public System {
     return estimate(under, pings, name, fitters_);
   }
 
-  EstimatorReport reportOf(const std::string& name, const std::vector<LabelledPing>& pings, const Output& output) const {
+  EstimatorReport reportOf(const std::string& name, const std::vector<LabelledPing>& pings,
+                           const Output& output) const {
     Score score;
     for (const auto& estimate : output.estimates)
       if (scored(estimate.time)) score.add(estimate.belief, truth());
@@ -139,7 +145,8 @@ class UsblSystem final : public System {
     for (std::size_t k = 0; k < pings.size(); ++k)
       for (int i = 0; i < kChannels; ++i) {
         if (!pings[k].ping.reading.has(i) || !std::isfinite(output.weights[k](i))) continue;
-        const bool labelled = pings[k].outlier[static_cast<std::size_t>(i)], flagged = output.weights[k](i) < kDownWeighted;
+        const bool labelled = pings[k].outlier[static_cast<std::size_t>(i)],
+                   flagged = output.weights[k](i) < kDownWeighted;
         detection.labelled += labelled;
         detection.flagged += flagged;
         detection.hits += labelled && flagged;
@@ -180,12 +187,13 @@ class UsblSystem final : public System {
   FitterFactory fitters_;
 };
 
-/// What range and direction angles tell, which is the same in every mode that keeps all of it; azimuth keeps less and has no bound here. The
-/// noise of position and attitude is left out.
+/// What range and direction angles tell, which is the same in every mode that keeps all of it; azimuth keeps less and
+/// has no bound here. The noise of position and attitude is left out.
 Named<double> UsblSystem::bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const {
   if (campaign_.config.mode == Mode::Azimuth) return {};
   const Scenario under = scenario(law);
-  const std::array<MeasurementInformation, kChannels> information{MeasurementInformation(under.noise[0]), MeasurementInformation(under.noise[1]),
+  const std::array<MeasurementInformation, kChannels> information{MeasurementInformation(under.noise[0]),
+                                                                  MeasurementInformation(under.noise[1]),
                                                                   MeasurementInformation(under.noise[2])};
   Problem one{Model(), campaign_.config.prior, {}, Vector<kChannels>::Constant(1 / std::sqrt(under.stated_factor))};
   State squares = State::Zero();
@@ -194,7 +202,8 @@ Named<double> UsblSystem::bound(std::size_t law, const std::vector<std::uint64_t
     Matrix<kUnknowns> data = Matrix<kUnknowns>::Zero();
     for (const auto& labelled : simulatePings(under, seed)) {
       Vector<kChannels> factor;
-      for (int i = 0; i < kChannels; ++i) factor(i) = information[static_cast<std::size_t>(i)].of(labelled.variance(i), timeOf(labelled));
+      for (int i = 0; i < kChannels; ++i)
+        factor(i) = information[static_cast<std::size_t>(i)].of(labelled.variance(i), timeOf(labelled));
       one.pings = {labelled.ping};
       data += usbl::information(one, under.truth, factor);
       if (!scored(timeOf(labelled))) continue;
@@ -208,7 +217,8 @@ Named<double> UsblSystem::bound(std::size_t law, const std::vector<std::uint64_t
 
 }  // namespace
 
-std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string& folder, const usbl::FitterFactory& fitters) {
+std::unique_ptr<System> makeUsblSystem(YamlSection& campaign, const std::string& folder,
+                                       const usbl::FitterFactory& fitters) {
   return std::make_unique<UsblSystem>(campaign, folder, fitters);
 }
 

@@ -13,7 +13,9 @@ namespace {
 /// The model's motion, simulated step by simulated step where the noise of one was not the good one.
 Motion toldMotion(const Model& model, const SimulatedRun& run) {
   return [model, &run](const StateVector& mean, const Input& input, Stamp from, Stamp to) {
-    const auto good = [&](std::size_t k) { return run.processVariance().empty() || run.processVariance()[k] == StateVector::Ones(); };
+    const auto good = [&](std::size_t k) {
+      return run.processVariance().empty() || run.processVariance()[k] == StateVector::Ones();
+    };
     bool all_good = true;
     for (std::size_t k = run.index(from) + 1; k <= run.index(to); ++k) all_good &= good(k);
     if (all_good) return model.transition(mean, input, secondsBetween(from, to));
@@ -22,7 +24,8 @@ Motion toldMotion(const Model& model, const SimulatedRun& run) {
       const auto step = model.transition(whole.mean, input, secondsBetween(0, run.step()));
       whole.mean = step.mean;
       whole.F = (step.F * whole.F).eval();
-      whole.Q = (step.F * whole.Q * step.F.transpose() + toldCovariance<kStates>(step.Q, run.processVariance()[k])).eval();
+      whole.Q =
+          (step.F * whole.Q * step.F.transpose() + toldCovariance<kStates>(step.Q, run.processVariance()[k])).eval();
     }
     return whole;
   };
@@ -39,7 +42,8 @@ double fastestRate(const Scenario& scenario) {
 
 std::unique_ptr<Estimator> makeOracle(const Campaign& campaign, const SimulatedRun& run) {
   using Filter = KalmanFilter<kStates>;
-  return std::make_unique<FilterTimeline<Filter>>([](const Config&) { return Filter(); }, campaign.config, toldMotion(Model(campaign.config.model), run));
+  return std::make_unique<FilterTimeline<Filter>>([](const Config&) { return Filter(); }, campaign.config,
+                                                  toldMotion(Model(campaign.config.model), run));
 }
 
 Measurement toldTheTruth(const LabelledMeasurement& labelled) {
@@ -55,9 +59,11 @@ std::unique_ptr<Estimator> makeBayesReference(const Campaign& campaign, const Sc
   options.mode.rows = 0;
   for (const auto sensor : kNoisy)
     if (scenario.sensor(sensor).noise.name() == law.name())
-      for (int row = 0; row < rowsOf(sensor); ++row) options.mode.rows |= 1U << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));
+      for (int row = 0; row < rowsOf(sensor); ++row)
+        options.mode.rows |= 1U << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));
   using Filter = GaussianSumFilter<kStates>;
-  return std::make_unique<FilterTimeline<Filter>>([options](const Config&) { return Filter(options); }, campaign.config);
+  return std::make_unique<FilterTimeline<Filter>>([options](const Config&) { return Filter(options); },
+                                                  campaign.config);
 }
 
 }  // namespace sas_motion::towfish

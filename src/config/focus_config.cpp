@@ -17,7 +17,9 @@ void readSonarOrFile(YamlSection& yaml, SonarDescription& sonar) {
   if (yaml.has("sonar") && yaml.has("sonar_file")) yaml.fail("sonar_file", "stands beside sonar; name one of them");
   std::string file;
   yaml.text("sonar_file", file);
-  readSonar(file.empty() ? yaml.section("sonar") : YamlSection::fromFile((std::filesystem::path(yaml.file()).parent_path() / file).string()), sonar);
+  readSonar(file.empty() ? yaml.section("sonar")
+                         : YamlSection::fromFile((std::filesystem::path(yaml.file()).parent_path() / file).string()),
+            sonar);
 }
 
 void readAperture(YamlSection yaml, ApertureSettings& aperture) {
@@ -35,9 +37,11 @@ TargetSettings readTarget(YamlSection yaml, const SonarDescription& sonar) {
   TargetSettings target;
   yaml.number("range", target.range, {kTiny, 1e4});
   if (target.range < sonar.near_range || target.range > sonar.far_range)
-    yaml.fail("range", fmt::format("is {} but must lie in the sonar's swath, {} to {}", target.range, sonar.near_range, sonar.far_range));
+    yaml.fail("range", fmt::format("is {} but must lie in the sonar's swath, {} to {}", target.range, sonar.near_range,
+                                   sonar.far_range));
   if (target.range <= sonar.altitude)
-    yaml.fail("range", fmt::format("is {} but must be above the sonar's altitude, which is {}", target.range, sonar.altitude));
+    yaml.fail("range",
+              fmt::format("is {} but must be above the sonar's altitude, which is {}", target.range, sonar.altitude));
   yaml.number("along", target.along, {-1e3, 1e3});
   yaml.finish();
   return target;
@@ -46,7 +50,8 @@ TargetSettings readTarget(YamlSection yaml, const SonarDescription& sonar) {
 void readTargets(YamlSection& yaml, FocusSettings& settings) {
   std::string side = "starboard";
   yaml.text("side", side);
-  if (side != "starboard" && side != "port") yaml.fail("side", fmt::format("is '{}' but must be starboard or port", side));
+  if (side != "starboard" && side != "port")
+    yaml.fail("side", fmt::format("is '{}' but must be starboard or port", side));
   settings.starboard = side == "starboard";
   std::vector<TargetSettings> targets;
   for (const auto& target : yaml.list("targets")) targets.push_back(readTarget(target, settings.sonar));
@@ -68,7 +73,8 @@ void readSpeckle(YamlSection yaml, SpeckleSettings& speckle) {
   yaml.number("level", speckle.level, {-200, 200});
   speckle.block = yaml.has("block");
   readBlock(yaml.section("block"), speckle);
-  if (speckle.block && !(speckle.density > 0)) yaml.fail("density", "is 0 but must be above 0 where there is a block: its shadow needs speckle to fall on");
+  if (speckle.block && !(speckle.density > 0))
+    yaml.fail("density", "is 0 but must be above 0 where there is a block: its shadow needs speckle to fall on");
   yaml.finish();
 }
 

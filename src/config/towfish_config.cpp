@@ -28,7 +28,8 @@ void readLoss(YamlSection& yaml, Loss& loss) {
 void readWeight(YamlSection& yaml, Sensor sensor, SensorOptions& options) {
   if (sensor == Sensor::TurnRate) {
     for (const char* key : {"sigma_deg", "floor_deg", "override_message"})
-      if (yaml.has(key)) yaml.fail(key, "would have no effect; set model.heading_noise_deg, which holds the error of the turn rate");
+      if (yaml.has(key))
+        yaml.fail(key, "would have no effect; set model.heading_noise_deg, which holds the error of the turn rate");
     return;
   }
   if (sensor == Sensor::Heading) {
@@ -57,7 +58,8 @@ void readRobust(YamlSection yaml, RobustKalmanFilter<kStates>::Options& options)
   yaml.finish();
 }
 
-/// Maximum correntropy is the robust filter with a Gaussian kernel exp(-r^2 / 2 sigma^2) on both parts: Welsch's loss with c = sigma sqrt(2).
+/// Maximum correntropy is the robust filter with a Gaussian kernel exp(-r^2 / 2 sigma^2) on both parts: Welsch's loss
+/// with c = sigma sqrt(2).
 void readCorrentropy(YamlSection yaml, RobustKalmanFilter<kStates>::Options& options) {
   double bandwidth = options.loss.tuning() / std::sqrt(2.0);
   yaml.number("bandwidth", bandwidth, {kTiny, 1e9});
@@ -70,14 +72,16 @@ void readCorrentropy(YamlSection yaml, RobustKalmanFilter<kStates>::Options& opt
 void readFour(YamlSection& yaml, const std::string& key, std::array<double, 4>& values, double lower) {
   std::vector<double> numbers(values.begin(), values.end());
   yaml.numbers(key, numbers, values.size());
-  if (*std::min_element(numbers.begin(), numbers.end()) < lower) yaml.fail(key, fmt::format("must be numbers of at least {}", lower));
+  if (*std::min_element(numbers.begin(), numbers.end()) < lower)
+    yaml.fail(key, fmt::format("must be numbers of at least {}", lower));
   std::copy(numbers.begin(), numbers.end(), values.begin());
 }
 
 void readMixture(YamlSection yaml, MixtureKalmanFilter<kStates>::Options& options) {
   readFour(yaml, "scales", options.scales, kTiny);
   readFour(yaml, "probabilities", options.probabilities, 0);
-  if (*std::max_element(options.probabilities.begin(), options.probabilities.end()) == 0) yaml.fail("probabilities", "must not all be 0");
+  if (*std::max_element(options.probabilities.begin(), options.probabilities.end()) == 0)
+    yaml.fail("probabilities", "must not all be 0");
   yaml.finish();
 }
 
@@ -170,7 +174,9 @@ void readConfig(YamlSection& yaml, Config& config) {
   yaml.number("max_gap", config.max_gap, {kTiny, 1e6});
   yaml.number("input_hold", config.input_hold, {0, 3600});
   yaml.angle("turn_rate_limit_deg", config.turn_rate_limit, {kTiny, 3600});
-  if (config.start.window > config.lag) yaml.fail("start.window", fmt::format("is {} but must be at most lag, which is {}", config.start.window, config.lag));
+  if (config.start.window > config.lag)
+    yaml.fail("start.window",
+              fmt::format("is {} but must be at most lag, which is {}", config.start.window, config.lag));
   readEstimators(yaml.section("estimators"), config);
 }
 

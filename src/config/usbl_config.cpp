@@ -34,7 +34,8 @@ void readThree(YamlSection& yaml, const std::string& key, Part&& part, double un
   std::vector<double> numbers{part(0) / unit, part(1) / unit, part(2) / unit};
   yaml.numbers(key, numbers, 3);
   if (*std::min_element(numbers.begin(), numbers.end()) < lower)
-    yaml.fail(key, fmt::format("must be numbers {}", lower == kTiny ? "above 0" : fmt::format("of at least {}", lower)));
+    yaml.fail(key,
+              fmt::format("must be numbers {}", lower == kTiny ? "above 0" : fmt::format("of at least {}", lower)));
   for (int i = 0; i < 3; ++i) part(i) = numbers[static_cast<std::size_t>(i)] * unit;
 }
 
@@ -76,9 +77,11 @@ void readFilters(YamlSection yaml, Config& config) {
   config.huber = Loss(LossKind::Huber, tuning);
   yaml.number("student_t_nu", config.student_t_nu, {0.1, 1e6});
   yaml.number("correntropy_bandwidth", config.correntropy_bandwidth, {kTiny, 1e9});
-  cubature.reweighting = static_cast<Reweighting>(choice(yaml, "reweighting", {"covariance", "observation"}, static_cast<std::size_t>(cubature.reweighting)));
-  cubature.increment = static_cast<NoiseIncrement>(
-      choice(yaml, "increment", {"raw", "weighted", "pseudo", "consistent", "mixture"}, static_cast<std::size_t>(cubature.increment)));
+  cubature.reweighting = static_cast<Reweighting>(
+      choice(yaml, "reweighting", {"covariance", "observation"}, static_cast<std::size_t>(cubature.reweighting)));
+  cubature.increment =
+      static_cast<NoiseIncrement>(choice(yaml, "increment", {"raw", "weighted", "pseudo", "consistent", "mixture"},
+                                         static_cast<std::size_t>(cubature.increment)));
   yaml.integer("iterations", cubature.iterations, 1, 1000);
   yaml.number("tolerance", cubature.tolerance, {kTiny, 1});
   yaml.number("rho", cubature.rho, {0.5, 1});

@@ -24,9 +24,11 @@ YAML::Node parsed(const std::string& name, const std::function<YAML::Node()>& lo
 
 }  // namespace
 
-YamlSection::YamlSection(const YAML::Node& node, std::string file, std::string path) : node_(node), file_(std::move(file)), path_(std::move(path)) {
+YamlSection::YamlSection(const YAML::Node& node, std::string file, std::string path)
+    : node_(node), file_(std::move(file)), path_(std::move(path)) {
   if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap())
-    throw ConfigError(fmt::format("{}: {} must be a mapping of keys to values", file_, path_.empty() ? "the file" : path_));
+    throw ConfigError(
+        fmt::format("{}: {} must be a mapping of keys to values", file_, path_.empty() ? "the file" : path_));
 }
 
 YamlSection YamlSection::fromFile(const std::string& file) {
@@ -41,7 +43,9 @@ YamlSection YamlSection::fromText(const std::string& text, const std::string& na
   return {parsed(name, [&] { return YAML::Load(text); }), name, ""};
 }
 
-void YamlSection::fail(const std::string& key, const std::string& what) const { throw ConfigError(fmt::format("{}: {} {}", file_, pathOf(key), what)); }
+void YamlSection::fail(const std::string& key, const std::string& what) const {
+  throw ConfigError(fmt::format("{}: {} {}", file_, pathOf(key), what));
+}
 
 bool YamlSection::has(const std::string& key) const { return node_.IsMap() && node_[key].IsDefined(); }
 
@@ -66,7 +70,8 @@ void YamlSection::number(const std::string& key, double& value, Range range) {
   if (!decode(node, value)) fail(key, "must be a number");
   if (!(value >= range.lower && value <= range.upper)) {
     const std::string lower = range.lower == kTiny ? "above 0" : fmt::format("at least {}", range.lower);
-    fail(key, fmt::format("is {} but must be {}{}", value, lower, std::isfinite(range.upper) ? fmt::format(" and at most {}", range.upper) : ""));
+    fail(key, fmt::format("is {} but must be {}{}", value, lower,
+                          std::isfinite(range.upper) ? fmt::format(" and at most {}", range.upper) : ""));
   }
 }
 
@@ -80,7 +85,8 @@ void YamlSection::integer(const std::string& key, int& value, int lower, int upp
   const YAML::Node node = take(key);
   if (!node.IsDefined()) return;
   if (!decode(node, value)) fail(key, "must be a whole number");
-  if (value < lower || value > upper) fail(key, fmt::format("is {} but must lie between {} and {}", value, lower, upper));
+  if (value < lower || value > upper)
+    fail(key, fmt::format("is {} but must lie between {} and {}", value, lower, upper));
 }
 
 void YamlSection::boolean(const std::string& key, bool& value) {
@@ -123,7 +129,8 @@ std::vector<YamlSection> YamlSection::list(const std::string& key) {
   std::vector<YamlSection> sections;
   if (!node.IsDefined()) return sections;
   if (!node.IsSequence()) fail(key, "must be a list");
-  for (std::size_t i = 0; i < node.size(); ++i) sections.push_back(YamlSection(node[i], file_, fmt::format("{}[{}]", pathOf(key), i)));
+  for (std::size_t i = 0; i < node.size(); ++i)
+    sections.push_back(YamlSection(node[i], file_, fmt::format("{}[{}]", pathOf(key), i)));
   return sections;
 }
 
@@ -131,7 +138,8 @@ std::vector<std::string> YamlSection::keys() const {
   std::vector<std::string> names;
   if (node_.IsMap())
     for (const auto& entry : node_) {
-      if (!entry.first.IsScalar()) throw ConfigError(fmt::format("{}: {} has a key that is no word", file_, path_.empty() ? "the file" : path_));
+      if (!entry.first.IsScalar())
+        throw ConfigError(fmt::format("{}: {} has a key that is no word", file_, path_.empty() ? "the file" : path_));
       names.push_back(entry.first.Scalar());
     }
   return names;

@@ -8,7 +8,8 @@ namespace sas_motion::towfish {
 namespace {
 
 /// Sum of squares of y[begin, end) about its least-squares line over t.
-double squaresAboutLine(const std::vector<double>& t, const std::vector<double>& y, std::size_t begin, std::size_t end) {
+double squaresAboutLine(const std::vector<double>& t, const std::vector<double>& y, std::size_t begin,
+                        std::size_t end) {
   const auto n = static_cast<double>(end - begin);
   double t_mean = 0, y_mean = 0, tt = 0, ty = 0, yy = 0;
   for (std::size_t i = begin; i < end; ++i) {
@@ -26,8 +27,8 @@ double squaresAboutLine(const std::vector<double>& t, const std::vector<double>&
 
 }  // namespace
 
-ApertureError apertureError(const std::vector<double>& time, const std::vector<double>& along, const std::vector<double>& across, double speed,
-                            const ApertureOptions& options) {
+ApertureError apertureError(const std::vector<double>& time, const std::vector<double>& along,
+                            const std::vector<double>& across, double speed, const ApertureOptions& options) {
   ApertureError result;
   result.wavelength = options.wavelength;
   if (!(speed > 1e-3)) return result;

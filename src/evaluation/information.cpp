@@ -14,7 +14,9 @@ namespace {
 
 using Kind = NoiseLaw::Kind;
 
-bool hasSpells(const NoiseLaw& law) { return law.kind == Kind::Burst || law.kind == Kind::Step || law.kind == Kind::Ramp || law.kind == Kind::Frozen; }
+bool hasSpells(const NoiseLaw& law) {
+  return law.kind == Kind::Burst || law.kind == Kind::Step || law.kind == Kind::Ramp || law.kind == Kind::Frozen;
+}
 
 }  // namespace
 
@@ -26,7 +28,8 @@ MeasurementInformation::MeasurementInformation(const NoiseMix& mix) {
   for (const auto& law : mix.laws) {
     if (law.kind == Kind::Contaminated) density.contaminate(law.epsilon, law.K);
     if (law.kind == Kind::StudentT) density.studentise(law.nu);
-    if (law.kind == Kind::Multipath && !spells_ && !density.delay(law.probability, law.mean))  // beside spells, the genie tells it too
+    if (law.kind == Kind::Multipath && !spells_ &&
+        !density.delay(law.probability, law.mean))  // beside spells, the genie tells it too
       throw std::invalid_argument("MeasurementInformation: a list of laws can have one multipath");
     if (law.kind == Kind::Correlated) density.scale(std::sqrt(1 - law.share));
     if (law.kind == Kind::Varying) varying_.push_back(law);

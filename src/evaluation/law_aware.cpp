@@ -21,7 +21,8 @@ constexpr double kLongest = 1000;       // of those without an end [s]
 Terms times(const Terms& before, const Terms& law) {
   Terms product;
   for (const auto& [variance, probability, mean] : law)
-    for (const auto& term : before) product.push_back({variance * term.variance, probability * term.probability, std::sqrt(variance) * term.mean});
+    for (const auto& term : before)
+      product.push_back({variance * term.variance, probability * term.probability, std::sqrt(variance) * term.mean});
   return product;
 }
 
@@ -30,14 +31,17 @@ Terms contaminated(double epsilon, double K) { return {{1, 1 - epsilon, 0}, {K *
 Terms varying(const NoiseLaw& law) {
   constexpr int kPhases = 6;
   Terms terms;
-  for (int i = 0; i < kPhases; ++i) terms.push_back({std::pow(varyingSigma(law, 0.5 * law.period * (i + 0.5) / kPhases), 2), 1.0 / kPhases, 0});
+  for (int i = 0; i < kPhases; ++i)
+    terms.push_back({std::pow(varyingSigma(law, 0.5 * law.period * (i + 0.5) / kPhases), 2), 1.0 / kPhases, 0});
   return terms;
 }
 
 /// The terms, and each of them with the parts of an exponential between its quantiles added.
 Terms multipath(Terms before, double probability, double m) {
   const std::array<double, 8> quantiles{0, 0.1, 0.3, 0.5, 0.7, 0.85, 0.95, 1};
-  const auto tail = [](double q) { return q < 1 ? std::pair{-std::log1p(-q), 1 - q} : std::pair{0.0, 0.0}; };  // x in units of m, and e^-x
+  const auto tail = [](double q) {
+    return q < 1 ? std::pair{-std::log1p(-q), 1 - q} : std::pair{0.0, 0.0};
+  };  // x in units of m, and e^-x
   Terms terms = before;
   for (auto& term : terms) term.probability *= 1 - probability;
   for (std::size_t i = 1; i < quantiles.size(); ++i) {
@@ -46,7 +50,8 @@ Terms multipath(Terms before, double probability, double m) {
     const double share = quantiles[i] - quantiles[i - 1], mean = ((a + 1) * ea - (b + 1) * eb) / share;
     const double square = ((a * a + 2 * a + 2) * ea - (b * b + 2 * b + 2) * eb) / share;
     for (const auto& term : before)
-      terms.push_back({term.variance + m * m * (square - mean * mean), probability * share * term.probability, term.mean + m * mean});
+      terms.push_back({term.variance + m * m * (square - mean * mean), probability * share * term.probability,
+                       term.mean + m * mean});
   }
   return terms;
 }
@@ -82,9 +87,12 @@ void setProcess(GaussianSumOptions& options, const NoiseMix& process, double per
 }  // namespace
 
 std::vector<NoiseTerm> studentTerms(double nu) {
-  const std::array<double, 8> quantiles{0, 0.003, 0.02, 0.07, 0.2, 0.45, 0.75, 1};  // of the precision, finest where it is small
+  const std::array<double, 8> quantiles{0,   0.003, 0.02, 0.07,
+                                        0.2, 0.45,  0.75, 1};  // of the precision, finest where it is small
   const double shape = 0.5 * nu;
-  const auto share = [&](double q) { return q < 1 ? boost::math::gamma_p(shape + 1, boost::math::gamma_p_inv(shape, q)) : 1; };  // of the mean, 1
+  const auto share = [&](double q) {
+    return q < 1 ? boost::math::gamma_p(shape + 1, boost::math::gamma_p_inv(shape, q)) : 1;
+  };  // of the mean, 1
   std::vector<NoiseTerm> terms;
   for (std::size_t i = quantiles.size() - 1; i > 0; --i) {
     const double probability = quantiles[i] - quantiles[i - 1];
@@ -105,11 +113,14 @@ GaussianSumOptions lawAware(const NoiseMix& measurement, const NoiseMix& process
         for (auto& term : terms) term.variance += law.quantum * law.quantum / 12;
         break;
       case Kind::Burst:
-        addSpells(options.mode, law.rate, std::max(law.length, period), bursts == BurstSize::Known ? std::optional<double>(law.K) : std::nullopt);
+        addSpells(options.mode, law.rate, std::max(law.length, period),
+                  bursts == BurstSize::Known ? std::optional<double>(law.K) : std::nullopt);
         break;
       case Kind::Frozen: addSpells(options.mode, law.rate, std::max(law.length, period), std::nullopt); break;
       case Kind::Step:
-      case Kind::Ramp: addSpells(options.mode, kOnceInAWhile, std::clamp(law.t1 - law.t0, period, kLongest), std::nullopt); break;
+      case Kind::Ramp:
+        addSpells(options.mode, kOnceInAWhile, std::clamp(law.t1 - law.t0, period, kLongest), std::nullopt);
+        break;
       case Kind::Gaussian:
       case Kind::Correlated:
       case Kind::Dropout:

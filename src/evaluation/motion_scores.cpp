@@ -31,16 +31,20 @@ MotionSample interpolate(const MotionSample& before, const MotionSample& after, 
 void MotionScorer::add(const MotionSample& estimate, const MotionSample& truth) {
   const Vector<3> position = estimate.position_map - truth.position_map;
   errors_[kHeightGroup].push_back(std::abs(position.z()));
-  if (estimate.P_position_map) nees_[kHeightGroup].push_back(position.z() * position.z() / (*estimate.P_position_map)(2, 2));
+  if (estimate.P_position_map)
+    nees_[kHeightGroup].push_back(position.z() * position.z() / (*estimate.P_position_map)(2, 2));
   if (estimate.moving) {
-    errors_[kVelocityGroup].push_back((estimate.q_map_base * estimate.velocity_base - truth.q_map_base * truth.velocity_base).norm());
+    errors_[kVelocityGroup].push_back(
+        (estimate.q_map_base * estimate.velocity_base - truth.q_map_base * truth.velocity_base).norm());
     const Vector<3> velocity = estimate.velocity_base - truth.velocity_base;
-    if (estimate.P_velocity_base) nees_[kVelocityGroup].push_back(normalisedSquare(velocity, *estimate.P_velocity_base));
+    if (estimate.P_velocity_base)
+      nees_[kVelocityGroup].push_back(normalisedSquare(velocity, *estimate.P_velocity_base));
   }
   if (!estimate.lying) return;
   const Vector<2> tilt = attitudeError(estimate.q_map_base, truth.q_map_base).head<2>();
   errors_[kTiltGroup].push_back(tilt.norm());
-  if (estimate.P_rotation_map) nees_[kTiltGroup].push_back(normalisedSquare(tilt, Matrix<2>(estimate.P_rotation_map->topLeftCorner<2, 2>())));
+  if (estimate.P_rotation_map)
+    nees_[kTiltGroup].push_back(normalisedSquare(tilt, Matrix<2>(estimate.P_rotation_map->topLeftCorner<2, 2>())));
 }
 
 MotionScores MotionScorer::scores() const {

@@ -10,7 +10,8 @@
 namespace sas_motion {
 namespace {
 
-constexpr double kStep = 0.01;       // of the quadratures, in the asinh or logarithm of the variable: trapezoids converge exponentially there
+constexpr double kStep =
+    0.01;  // of the quadratures, in the asinh or logarithm of the variable: trapezoids converge exponentially there
 constexpr double kNothing = 1e-200;  // density below which nothing is left to count
 
 /// exp(z^2) erfc(z) for z >= 0.
@@ -24,7 +25,8 @@ double scaledErfc(double z) {
 double edge(double nu, double direction) {
   double u = 0;
   for (double stride = 64; stride > 1e-6; stride /= 2)
-    while (0.5 * nu * (u + direction * stride - std::expm1(u + direction * stride)) > -45 && std::abs(u) < 60) u += direction * stride;
+    while (0.5 * nu * (u + direction * stride - std::expm1(u + direction * stride)) > -45 && std::abs(u) < 60)
+      u += direction * stride;
   return u;
 }
 
@@ -59,7 +61,8 @@ void NoiseDensity::studentise(double nu) {
   for (int i = 0; i < kNodes; ++i)
     for (const auto& part : parts_) {
       const double wide = std::exp(-u[static_cast<std::size_t>(i)]);
-      parts.push_back({part.variance * wide, part.probability * weight[static_cast<std::size_t>(i)] / total, part.mean * std::sqrt(wide)});
+      parts.push_back({part.variance * wide, part.probability * weight[static_cast<std::size_t>(i)] / total,
+                       part.mean * std::sqrt(wide)});
     }
   parts_ = parts;
 }
@@ -84,10 +87,12 @@ NoiseDensity::Value NoiseDensity::at(double x) const {
   Value sum;
   for (const auto& [v, probability, m] : parts_) {
     const double s = std::sqrt(v), phi = std::exp(-0.5 * x * x / v) / (s * std::sqrt(2 * kPi));
-    double f = phi, slope = -x / v * phi, below = 0.5 * std::erfc(-x / (s * std::sqrt(2.0))), above = 0.5 * std::erfc(x / (s * std::sqrt(2.0)));
+    double f = phi, slope = -x / v * phi, below = 0.5 * std::erfc(-x / (s * std::sqrt(2.0))),
+           above = 0.5 * std::erfc(x / (s * std::sqrt(2.0)));
     if (m > 0) {  // a Gaussian and an exponential
       const double z = (s / m - x / s) / std::sqrt(2.0);
-      f = z < 0 ? std::exp(0.5 * v / (m * m) - x / m) * std::erfc(z) / (2 * m) : std::exp(-0.5 * x * x / v) * scaledErfc(z) / (2 * m);
+      f = z < 0 ? std::exp(0.5 * v / (m * m) - x / m) * std::erfc(z) / (2 * m)
+                : std::exp(-0.5 * x * x / v) * scaledErfc(z) / (2 * m);
       slope = (phi - f) / m;
       below -= m * f;
       above += m * f;
@@ -109,7 +114,8 @@ double NoiseDensity::information(double quantum) const {
     double integrand = here.f > kNothing ? here.slope * here.slope / here.f : 0;
     if (quantum > 0) {
       const Value there = at(x + quantum);
-      const double inside = x + 0.5 * quantum > 0 ? here.above - there.above : there.below - here.below, change = there.f - here.f;
+      const double inside = x + 0.5 * quantum > 0 ? here.above - there.above : there.below - here.below,
+                   change = there.f - here.f;
       integrand = inside > kNothing ? change * change / inside / quantum : 0;
     }
     sum += integrand * std::cosh(t) * kStep;
@@ -118,13 +124,15 @@ double NoiseDensity::information(double quantum) const {
 }
 
 double NoiseDensity::radialInformation(int n) const {
-  const double end = std::log(40 * widest() + 10 * std::sqrt(n)), constant = 2 / (std::pow(2.0, 0.5 * n) * std::tgamma(0.5 * n));
+  const double end = std::log(40 * widest() + 10 * std::sqrt(n)),
+               constant = 2 / (std::pow(2.0, 0.5 * n) * std::tgamma(0.5 * n));
   double sum = 0;
   for (double t = -40; t <= end; t += kStep) {
     const double square = std::exp(2 * t);
     double density = 0, score = 0;  // both times r^n
     for (const auto& part : parts_) {
-      const double f = part.probability * std::exp(0.5 * n * (2 * t - std::log(part.variance)) - 0.5 * square / part.variance);
+      const double f =
+          part.probability * std::exp(0.5 * n * (2 * t - std::log(part.variance)) - 0.5 * square / part.variance);
       density += f;
       score += f / part.variance;
     }

@@ -12,7 +12,8 @@ namespace sas_motion::towfish {
 namespace {
 
 /// The states of a group; -1 where there is no second one.
-constexpr std::array<std::array<int, 2>, kGroups> kStatesOf{{{kNorth, kEast}, {kHeading, -1}, {kSpeed, -1}, {kCurrentNorth, kCurrentEast}}};
+constexpr std::array<std::array<int, 2>, kGroups> kStatesOf{
+    {{kNorth, kEast}, {kHeading, -1}, {kSpeed, -1}, {kCurrentNorth, kCurrentEast}}};
 
 bool known(Group group, const Reference& truth) {
   switch (group) {
@@ -40,7 +41,8 @@ const char* groupName(Group group) {
 }
 
 ErrorSummary summarize(const std::vector<double>& errors) {
-  return {rootMeanSquare(errors), quantile(errors, 0.95), errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end())};
+  return {rootMeanSquare(errors), quantile(errors, 0.95),
+          errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end())};
 }
 
 Consistency consistency(const std::vector<double>& values, double degrees) {
@@ -53,7 +55,8 @@ Consistency consistency(const std::vector<double>& values, double degrees) {
   result.lower = band.lower;
   result.upper = band.upper;
   const Band single = averageChiSquaredBand(degrees, 1, 0.95);
-  const auto inside = std::count_if(values.begin(), values.end(), [&](double v) { return v >= single.lower && v <= single.upper; });
+  const auto inside =
+      std::count_if(values.begin(), values.end(), [&](double v) { return v >= single.lower && v <= single.upper; });
   result.inside = static_cast<double>(inside) / static_cast<double>(values.size());
   return result;
 }
@@ -63,7 +66,8 @@ std::optional<double> Detection::precision() const {
 }
 
 std::optional<double> Detection::recall() const {
-  return labelled == 0 ? std::nullopt : std::optional<double>(static_cast<double>(hits) / static_cast<double>(labelled));
+  return labelled == 0 ? std::nullopt
+                       : std::optional<double>(static_cast<double>(hits) / static_cast<double>(labelled));
 }
 
 double normalisedSquare(const Estimate& estimate, const Reference& truth) {
@@ -88,7 +92,8 @@ void Scorer::add(const Estimate& estimate, const Reference& truth) {
     errors_[group].push_back(b < 0 ? std::abs(error(a)) : std::hypot(error(a), error(b)));
     if (P(a, a) > 0) nees_[group].push_back(normalisedSquare(group, error, P));  // zero is unknown
   }
-  if (truth.heading_known && truth.speed_known && truth.current_known) nees_full_.push_back(normalisedSquare(estimate, truth));
+  if (truth.heading_known && truth.speed_known && truth.current_known)
+    nees_full_.push_back(normalisedSquare(estimate, truth));
   const double heading = truth.heading_known ? truth.state(kHeading) : estimate.belief.mean(kHeading);
   const double c = std::cos(heading), s = std::sin(heading);
   time_.push_back(static_cast<double>(estimate.stamp - 0) * 1e-9);
@@ -97,7 +102,8 @@ void Scorer::add(const Estimate& estimate, const Reference& truth) {
   speeds_.push_back(truth.speed_known ? truth.state(kSpeed) : estimate.belief.mean(kSpeed));
 }
 
-void AuditTally::add(Verdict verdict, double least_weight, std::optional<double> normalised, std::optional<bool> outlier) {
+void AuditTally::add(Verdict verdict, double least_weight, std::optional<double> normalised,
+                     std::optional<bool> outlier) {
   if (verdict == Verdict::Stale || verdict == Verdict::Invalid) return;
   if (normalised) nis.push_back(*normalised);
   if (!outlier) return;
@@ -111,7 +117,8 @@ void Scorer::add(const Audit& audit, std::optional<bool> outlier) {
   ++scores_.verdicts[static_cast<std::size_t>(audit.verdict)];
   if (audit.rows == 0) return;
   const auto nis = audit.S(0, 0) > 0 ? std::optional(audit.nis) : std::nullopt;
-  tallies_[static_cast<std::size_t>(audit.sensor)].add(audit.verdict, audit.weights.head(audit.rows).minCoeff(), nis, outlier);
+  tallies_[static_cast<std::size_t>(audit.sensor)].add(audit.verdict, audit.weights.head(audit.rows).minCoeff(), nis,
+                                                       outlier);
 }
 
 Scores Scorer::scores() const {

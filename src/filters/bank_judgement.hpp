@@ -12,15 +12,16 @@
 
 namespace sas_motion {
 
-/// What the bank makes of one measurement: every hypothesis hears each row, is weighed by how well it foresaw them, and what all of them
-/// think the noise was is learned.
+/// What the bank makes of one measurement: every hypothesis hears each row, is weighed by how well it foresaw them, and
+/// what all of them think the noise was is learned.
 template <int N, int M>
 class BankJudgement {
  public:
   using Belief = BankBelief<N>;
   using Options = typename BankKalmanFilter<N>::Options;
 
-  BankJudgement(const Options& options, Belief& belief, const LinearMeasurement<N, M>& z) : options_(options), belief_(belief), z_(z) {
+  BankJudgement(const Options& options, Belief& belief, const LinearMeasurement<N, M>& z)
+      : options_(options), belief_(belief), z_(z) {
     for (int row = 0; row < M; ++row) {
       place_[row] = channel(row);
       auto& learned = belief.channels[place_[row]];
@@ -98,10 +99,12 @@ class BankJudgement {
     const double innovation = z_.innovation(row) - H.dot(h.deviation), v = std::max(0.0, H.dot(PH));
     const double fade = c.run > options_.burst ? std::pow(kFade, c.run - options_.burst) : 1;
     const BankReading reading(innovation, v, z_.R(row, row),
-                              {options_.scales, belief_.channels[place_[row]].shares, options_.sticky, options_.repeat, c.doubt * shared * fade, c.residual,
-                               std::max(0.0, v - c.variance)});
+                              {options_.scales, belief_.channels[place_[row]].shares, options_.sticky, options_.repeat,
+                               c.doubt * shared * fade, c.residual, std::max(0.0, v - c.variance)});
     h.deviation += PH * (innovation * reading.inverse);
-    h.covariance -= (PH * (reading.inverse - innovation * innovation * (reading.inverse_squared - reading.inverse * reading.inverse))) * PH.transpose();
+    h.covariance -= (PH * (reading.inverse -
+                           innovation * innovation * (reading.inverse_squared - reading.inverse * reading.inverse))) *
+                    PH.transpose();
     log_weight += std::log(reading.likelihood);
     c.doubt = reading.doubt;
     c.run = reading.doubt * (std::min(elapsed_[row], 1.0) + reading.agreement * c.run);
@@ -111,7 +114,8 @@ class BankJudgement {
   void weigh() {
     const double largest = *std::max_element(log_weight_.begin(), log_weight_.end());
     double sum = 0;
-    for (std::size_t i = 0; i < kHypotheses; ++i) sum += belief_.hypotheses[i].weight = std::exp(log_weight_[i] - largest);
+    for (std::size_t i = 0; i < kHypotheses; ++i)
+      sum += belief_.hypotheses[i].weight = std::exp(log_weight_[i] - largest);
     for (auto& h : belief_.hypotheses) h.weight = h.weight / sum + kBankLeastWeight;
   }
 
@@ -123,7 +127,8 @@ class BankJudgement {
       double share = 0;
       for (std::size_t i = 0; i < kHypotheses; ++i) share += belief_.hypotheses[i].weight * shares_[i][row][j];
       if (j < BankReading::kNarrow) weight += share / options_.scales[j];
-      learned.shares[j] = std::max(learned.shares[j] + (share - learned.shares[j]) / learned.readings, kSmallestShare * options_.probabilities[j]);
+      learned.shares[j] = std::max(learned.shares[j] + (share - learned.shares[j]) / learned.readings,
+                                   kSmallestShare * options_.probabilities[j]);
       total += learned.shares[j];
     }
     for (double& share : learned.shares) share /= total;

@@ -17,7 +17,7 @@
 namespace sas_motion {
 namespace {
 
-constexpr double kPriorEpochs = 15;                   // that the option's jump probability is worth: less than one jump's
+constexpr double kPriorEpochs = 15;  // that the option's jump probability is worth: less than one jump's
 constexpr double kFewestJumps = 0.1, kMostJumps = 5;  // of the jump probability
 
 void require(bool holds, const char* key, double value, const char* must) {
@@ -29,7 +29,8 @@ void require(bool holds, const char* key, double value, const char* must) {
 template <int N>
 BankKalmanFilter<N>::BankKalmanFilter(const Options& options) : options_(options) {
   require(options.epoch > 0, "epoch", options.epoch, "positive");
-  require(options.jump_probability > 0 && options.jump_probability < 0.2, "jump_probability", options.jump_probability, "between 0 and 0.2");
+  require(options.jump_probability > 0 && options.jump_probability < 0.2, "jump_probability", options.jump_probability,
+          "between 0 and 0.2");
   require(options.jump_scale >= 1, "jump_scale", options.jump_scale, "at least 1");
   require(options.sticky >= 0 && options.sticky < 1, "sticky", options.sticky, "at least 0 and below 1");
   require(options.repeat >= 0 && options.repeat <= 1, "repeat", options.repeat, "between 0 and 1");
@@ -56,14 +57,17 @@ void BankKalmanFilter<N>::start(Belief& belief) const {
 }
 
 template <int N>
-typename BankKalmanFilter<N>::Belief BankKalmanFilter<N>::predict(const Belief& belief, const Transition<N>& transition) const {
+typename BankKalmanFilter<N>::Belief BankKalmanFilter<N>::predict(const Belief& belief,
+                                                                  const Transition<N>& transition) const {
   Belief prior = belief;
   if (!prior.started) {
     start(prior);
     prior.epoch_begin = NAN;  // the time of the first measurement
   }
   const Matrix<N>& F = transition.F;
-  const auto moved = [&F](const Matrix<N>& P) -> Matrix<N> { return (F.lazyProduct(P)).eval().lazyProduct(F.transpose()); };
+  const auto moved = [&F](const Matrix<N>& P) -> Matrix<N> {
+    return (F.lazyProduct(P)).eval().lazyProduct(F.transpose());
+  };
   for (auto& h : prior.hypotheses) {
     h.deviation = F * h.deviation;
     h.covariance = moved(h.covariance) + transition.Q;
@@ -83,7 +87,8 @@ void BankKalmanFilter<N>::openEpoch(Belief& belief, double time) const {
   belief.epochs = std::min(belief.epochs + 1, kBankMemory);
   // what jumped eight openings ago and not since: a little too few; an opening after a pause counts for its epochs
   belief.jump_probability += (bank[kOldest].weight / epochs - belief.jump_probability) / belief.epochs;
-  belief.jump_probability = std::clamp(belief.jump_probability, kFewestJumps * options_.jump_probability, kMostJumps * options_.jump_probability);
+  belief.jump_probability = std::clamp(belief.jump_probability, kFewestJumps * options_.jump_probability,
+                                       kMostJumps * options_.jump_probability);
   const double stay = std::pow(1 - belief.jump_probability, epochs);  // a pause of the data may hold several epochs
 
   BankHypothesis<N> any;

@@ -10,8 +10,8 @@ namespace sas_motion {
 
 /// What one hypothesis of the bank makes of one row of a reading.
 ///
-/// The innovation's density is sum p_j N(0, v + s_j r), with the wide scales made likelier by `stickiness`, and with part of them expected to
-/// repeat the last residual. Only the narrow scales inform the state.
+/// The innovation's density is sum p_j N(0, v + s_j r), with the wide scales made likelier by `stickiness`, and with
+/// part of them expected to repeat the last residual. Only the narrow scales inform the state.
 struct BankReading {
   static constexpr int kScales = 4;
   static constexpr int kNarrow = 2;  ///< scales that inform; the others are outliers
@@ -53,7 +53,8 @@ struct BankReading {
     inverse_squared /= likelihood;
     doubt = explained / likelihood;
     agreement = again / (again + anew);
-    for (std::size_t j = 0; j < kScales; ++j) shares[j] = j < kNarrow ? shares[j] / likelihood : doubt * shares[j] / anew;
+    for (std::size_t j = 0; j < kScales; ++j)
+      shares[j] = j < kNarrow ? shares[j] / likelihood : doubt * shares[j] / anew;
   }
 
  private:

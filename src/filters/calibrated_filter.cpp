@@ -29,15 +29,17 @@ void learn(LearnedInfluence& row, const Influence& influence, double t) {
   average(row.gain, gain * gain);
 }
 
-/// The noise that a Kalman filter's gain would have to let through, over R, to do what the row's influence does. `s` is as `t`, calibrated.
-/// After an outage t is large. The averages, of readings at a smaller one, are then taken at the largest that they can stand for.
+/// The noise that a Kalman filter's gain would have to let through, over R, to do what the row's influence does. `s` is
+/// as `t`, calibrated. After an outage t is large. The averages, of readings at a smaller one, are then taken at the
+/// largest that they can stand for.
 double noiseThrough(const LearnedInfluence& row, double t, double s) {
   if (t > kLargest) {
     s *= kLargest / t;
     t = kLargest;
   }
-  const double square = std::min(row.believed, (1 + s) / (1 + t)) + row.clipped;  // readings that are believed do not speak against R
-  return std::max(row.gain * row.gain, (1 + t) * square - s * row.gain);          // and none is better than a good one
+  const double square =
+      std::min(row.believed, (1 + s) / (1 + t)) + row.clipped;  // readings that are believed do not speak against R
+  return std::max(row.gain * row.gain, (1 + t) * square - s * row.gain);  // and none is better than a good one
 }
 
 }  // namespace
@@ -52,11 +54,13 @@ CalibratedBelief<N> CalibratedFilter<Filter, N>::predict(const Belief& belief, c
 
 template <class Filter, int N>
 template <int M>
-Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
+Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief& prior,
+                                                                   const LinearMeasurement<N, M>& z) const {
   static_assert(M <= Belief::kMaxRows);
   const Gaussian<N> own_prior = own(prior);
   const auto inner = filter_.update(own_prior, z);
-  Update<Belief, M> result{prior, inner.innovation, inner.S, inner.nis, inner.weights, inner.iterations, inner.converged, inner.verdict};
+  Update<Belief, M> result{prior,         inner.innovation, inner.S,         inner.nis,
+                           inner.weights, inner.iterations, inner.converged, inner.verdict};
   if (inner.verdict == Verdict::Invalid) return result;
   Belief& belief = result.belief;
   if (!filter_.calibrates()) {
@@ -67,12 +71,14 @@ Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief&
   belief.own = inner.belief.covariance;
   belief.started = true;
   const Projection<N, M> own_rows(own_prior.covariance, z.H), rows(prior.state.covariance, z.H);
-  const Vector<M> t = own_rows.HPHt.diagonal().cwiseQuotient(z.R.diagonal()), s = rows.HPHt.diagonal().cwiseQuotient(z.R.diagonal());
+  const Vector<M> t = own_rows.HPHt.diagonal().cwiseQuotient(z.R.diagonal()),
+                  s = rows.HPHt.diagonal().cwiseQuotient(z.R.diagonal());
   const Vector<M> residual = z.innovation - z.H * (inner.belief.mean - own_prior.mean);
   Matrix<M> S = own_rows.HPHt;
   Vector<M> noise;
   for (int row = 0; row < M; ++row) {
-    const double R = z.R(row, row), after = t(row) / (1 + t(row) * inner.weights(row));  // variance of the residual's prediction, over R
+    const double R = z.R(row, row),
+                 after = t(row) / (1 + t(row) * inner.weights(row));  // variance of the residual's prediction, over R
     Influence influence = filter_.influence(residual(row) / std::sqrt(R), after);
     influence.slope = std::max(kLeastSlope, influence.slope);
     auto& learned = belief.learned[static_cast<std::size_t>(z.source)][static_cast<std::size_t>(row)];
@@ -81,7 +87,8 @@ Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief&
     S(row, row) += R / influence.slope;
   }
   // (I - K H) P (I - K H)^T + G noise G^T, with K the gain on a change of the reading and G a Kalman filter's
-  const Matrix<M> J = S.inverse(), J_kalman = inner.S.inverse();  // the filter has factorized the second, and the first is larger
+  const Matrix<M> J = S.inverse(),
+                  J_kalman = inner.S.inverse();  // the filter has factorized the second, and the first is larger
   const Matrix<M> back = J * rows.HPHt * J + J_kalman * noise.asDiagonal() * J_kalman;
   const Matrix<M, N> half = J * rows.PHt.transpose() - 0.5 * back * own_rows.PHt.transpose();
   const Matrix<N> less = own_rows.PHt * half;
@@ -90,8 +97,9 @@ Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief&
   return result;
 }
 
-#define SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, N, M) \
-  template Update<CalibratedBelief<N>, M> CalibratedFilter<Filter<N>, N>::update<M>(const CalibratedBelief<N>&, const LinearMeasurement<N, M>&) const;
+#define SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, N, M)                       \
+  template Update<CalibratedBelief<N>, M> CalibratedFilter<Filter<N>, N>::update<M>( \
+      const CalibratedBelief<N>&, const LinearMeasurement<N, M>&) const;
 #define SAS_MOTION_INSTANTIATE_CALIBRATED(Filter)        \
   template class CalibratedFilter<Filter<2>, 2>;         \
   template class CalibratedFilter<Filter<6>, 6>;         \

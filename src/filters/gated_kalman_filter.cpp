@@ -12,7 +12,8 @@ namespace sas_motion {
 namespace {
 
 double checkedProbability(double probability) {
-  if (!(probability > 0 && probability < 1)) throw std::invalid_argument(fmt::format("probability is {} but must lie between 0 and 1", probability));
+  if (!(probability > 0 && probability < 1))
+    throw std::invalid_argument(fmt::format("probability is {} but must lie between 0 and 1", probability));
   return probability;
 }
 

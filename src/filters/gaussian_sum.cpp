@@ -17,8 +17,8 @@ GaussianBlock<N> product(const GaussianBlock<N>& a, const GaussianBlock<N>& b) {
   GaussianBlock<N> both{a.states + b.states};
   for (const auto& g : a.hypotheses)
     for (const auto& h : b.hypotheses)
-      both.hypotheses.push_back(
-          {g.deviation + h.deviation, g.covariance + h.covariance, g.log_weight + h.log_weight, g.biased | h.biased, std::max(g.scale, h.scale)});
+      both.hypotheses.push_back({g.deviation + h.deviation, g.covariance + h.covariance, g.log_weight + h.log_weight,
+                                 g.biased | h.biased, std::max(g.scale, h.scale)});
   return both;
 }
 
@@ -49,7 +49,8 @@ void GaussianBlock<N>::reduce(std::size_t count, double merge) {
   }
   std::vector<std::size_t> order(hypotheses.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return weights[a] != weights[b] ? weights[a] > weights[b] : a < b; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return weights[a] != weights[b] ? weights[a] > weights[b] : a < b; });
   std::vector<bool> taken(hypotheses.size(), false);
   std::vector<Hypothesis<N>> kept;
   for (const std::size_t heaviest : order) {
@@ -62,7 +63,8 @@ void GaussianBlock<N>::reduce(std::size_t count, double merge) {
       const Hypothesis<N>& h = hypotheses[i];
       if (taken[i] || h.biased != center.biased || h.scale != center.scale) continue;
       const Vector<N> off = h.deviation - center.deviation;
-      const double distance = (off.array().square() / variances[heaviest].array()).sum() + (logarithms[i] - logarithms[heaviest]).squaredNorm();
+      const double distance = (off.array().square() / variances[heaviest].array()).sum() +
+                              (logarithms[i] - logarithms[heaviest]).squaredNorm();
       if (i != heaviest && distance >= merge * states.sum()) continue;
       taken[i] = true;
       total += weights[i];
@@ -71,7 +73,8 @@ void GaussianBlock<N>::reduce(std::size_t count, double merge) {
       second.noalias() += (weights[i] * off) * off.transpose();
     }
     mean /= total;
-    kept.push_back({center.deviation + mean, second / total - mean * mean.transpose(), std::log(total), center.biased, center.scale});
+    kept.push_back({center.deviation + mean, second / total - mean * mean.transpose(), std::log(total), center.biased,
+                    center.scale});
   }
   hypotheses = std::move(kept);
 }

@@ -21,12 +21,14 @@ void requireTerms(const char* what, std::vector<NoiseTerm>& terms) {
   double total = 0;
   for (const auto& term : terms) {
     if (!(term.variance > 0) || !(term.probability >= 0) || !std::isfinite(term.mean))
-      throw std::invalid_argument(fmt::format("{}: a term needs a positive variance and a probability of at least 0", what));
+      throw std::invalid_argument(
+          fmt::format("{}: a term needs a positive variance and a probability of at least 0", what));
     total += term.probability;
   }
   if (!(total > 0)) throw std::invalid_argument(fmt::format("{}: at least one probability must be positive", what));
   for (auto& term : terms) term.probability /= total;
-  terms.erase(std::remove_if(terms.begin(), terms.end(), [](const NoiseTerm& term) { return term.probability == 0; }), terms.end());
+  terms.erase(std::remove_if(terms.begin(), terms.end(), [](const NoiseTerm& term) { return term.probability == 0; }),
+              terms.end());
 }
 
 }  // namespace
@@ -38,7 +40,8 @@ GaussianSumFilter<N>::GaussianSumFilter(const GaussianSumOptions& options) : opt
   if (!(options.epoch >= 0)) throw std::invalid_argument(fmt::format("epoch: {} must be at least 0", options.epoch));
   if (!(options.persistence >= 0 && options.persistence < 1))
     throw std::invalid_argument(fmt::format("persistence: {} must lie in [0, 1)", options.persistence));
-  if (!(options.mode.rate >= 0) || !(options.mode.length > 0)) throw std::invalid_argument("mode: rate must be at least 0 and length positive");
+  if (!(options.mode.rate >= 0) || !(options.mode.length > 0))
+    throw std::invalid_argument("mode: rate must be at least 0 and length positive");
   if (options.hypotheses < 1 || options.branches < options.hypotheses)
     throw std::invalid_argument("hypotheses must be at least 1, and branches at least as many");
 }
@@ -49,7 +52,8 @@ GaussianSum<N> GaussianSumFilter<N>::predict(const Belief& belief, const Transit
   Belief next = belief;
   next.start();
   const Matrix<N> coupling = transition.F.cwiseAbs() + transition.Q.cwiseAbs();
-  next.couple(terms.size() > 1 ? Matrix<N>::Ones() : coupling, options_.hypotheses, options_.merge);  // all states share a scale
+  next.couple(terms.size() > 1 ? Matrix<N>::Ones() : coupling, options_.hypotheses,
+              options_.merge);  // all states share a scale
   if (belief.epoch_over && terms.size() > 1 && !transition.Q.isZero(0)) {
     branch(next.blocks.front());
     next.epoch_over = false;
@@ -76,7 +80,8 @@ void GaussianSumFilter<N>::branch(GaussianBlock<N>& block) const {
     for (std::size_t i = 0; i < terms.size(); ++i) {
       branches.push_back(h);
       branches.back().scale = i;
-      branches.back().log_weight += std::log((1 - options_.persistence) * terms[i].probability + (h.scale == i ? options_.persistence : 0));
+      branches.back().log_weight +=
+          std::log((1 - options_.persistence) * terms[i].probability + (h.scale == i ? options_.persistence : 0));
     }
   block.hypotheses = std::move(branches);
 }

@@ -25,7 +25,9 @@ void keepHeaviest(std::vector<Branch>& branches, std::size_t count) {
   const auto heavier = [](const Branch& a, const Branch& b) { return a.log_weight > b.log_weight; };
   const double best = std::min_element(branches.begin(), branches.end(), heavier)->log_weight;
   for (auto& b : branches) b.log_weight -= best;
-  branches.erase(std::remove_if(branches.begin(), branches.end(), [](const Branch& b) { return b.log_weight < -kBeyondReach; }), branches.end());
+  branches.erase(
+      std::remove_if(branches.begin(), branches.end(), [](const Branch& b) { return b.log_weight < -kBeyondReach; }),
+      branches.end());
   if (branches.size() <= count) return;
   std::nth_element(branches.begin(), branches.begin() + static_cast<std::ptrdiff_t>(count), branches.end(), heavier);
   branches.resize(count);
@@ -48,12 +50,14 @@ double GaussianSumRow<N>::fuse(GaussianBlock<N>& block, const GaussianSumOptions
       if (change == 0) continue;
       const auto branch = [&](double probability, double mean, double variance) {
         const double S = v + variance * r, e = from_parent - sigma * mean;
-        branches.push_back({i, parent.log_weight + std::log(change * probability) - 0.5 * (std::log(S) + e * e / S), e, S, variance, is});
+        branches.push_back({i, parent.log_weight + std::log(change * probability) - 0.5 * (std::log(S) + e * e / S), e,
+                            S, variance, is});
       };
       if (is && !options.mode.bias)
         branch(1, 0, kUninformative);
       else
-        for (const auto& term : options.measurement) branch(term.probability, term.mean + (is ? *options.mode.bias : 0), term.variance);
+        for (const auto& term : options.measurement)
+          branch(term.probability, term.mean + (is ? *options.mode.bias : 0), term.variance);
     }
   }
   keepHeaviest(branches, options.branches);

@@ -14,7 +14,8 @@ struct GaussianSumRow {
   std::uint32_t mode = 0;       ///< its bit in Hypothesis::biased; 0: it is never biased
   double begins = 0, ends = 0;  ///< probabilities that its mode did since it was last asked for
 
-  /// Branches on all that the row's noise can be, and follows the heaviest branches; the weight is the expected 1 / variance.
+  /// Branches on all that the row's noise can be, and follows the heaviest branches; the weight is the expected 1 /
+  /// variance.
   double fuse(GaussianBlock<N>& block, const GaussianSumOptions& options) const;
 };
 

@@ -6,8 +6,9 @@
 
 #define SAS_MOTION_FOR_STATES(DO) DO(2) DO(6)
 
-#define SAS_MOTION_INSTANTIATE_UPDATE(Filter, N, M) \
-  template Update<Filter<N>::Belief, M> Filter<N>::update<M>(const Filter<N>::Belief&, const LinearMeasurement<N, M>&) const;
+#define SAS_MOTION_INSTANTIATE_UPDATE(Filter, N, M)                                                                    \
+  template Update<Filter<N>::Belief, M> Filter<N>::update<M>(const Filter<N>::Belief&, const LinearMeasurement<N, M>&) \
+      const;
 
 // The fusion of INS, GPS and DVL, for the filters that it uses.
 #define SAS_MOTION_INSTANTIATE_INS_UPDATES(Filter) \

@@ -19,13 +19,15 @@ MixtureKalmanFilter<N>::MixtureKalmanFilter(const Options& options) : options_(o
   for (const double scale : options.scales)
     if (!(scale > 0)) throw std::invalid_argument(fmt::format("scales: {} must be positive", scale));
   for (const double probability : options.probabilities)
-    if (!(probability >= 0)) throw std::invalid_argument(fmt::format("probabilities: {} must not be negative", probability));
+    if (!(probability >= 0))
+      throw std::invalid_argument(fmt::format("probabilities: {} must not be negative", probability));
   if (!(std::accumulate(options.probabilities.begin(), options.probabilities.end(), 0.0) > 0))
     throw std::invalid_argument("probabilities: at least one must be positive");
 }
 
 template <int N>
-typename MixtureKalmanFilter<N>::Collapse MixtureKalmanFilter<N>::collapse(double innovation, double v, double r) const {
+typename MixtureKalmanFilter<N>::Collapse MixtureKalmanFilter<N>::collapse(double innovation, double v,
+                                                                           double r) const {
   std::array<double, kScales> exponent, S;
   double largest = -INFINITY;
   for (std::size_t j = 0; j < kScales; ++j) {

@@ -18,12 +18,19 @@ const Loss& startingLoss() {
   return huber;
 }
 
-/// Re-weighted least squares in the measurement's rows alone: the residual after an update with noise R is nu - H P H^T S^{-1} nu.
+/// Re-weighted least squares in the measurement's rows alone: the residual after an update with noise R is nu - H P H^T
+/// S^{-1} nu.
 template <int M>
 class Reweighting {
  public:
-  Reweighting(const Vector<M>& innovation, const Matrix<M>& HPHt, const Matrix<M>& R_nominal, const Whitening<M>& noise, const Innovation<M>& S_nominal)
-      : R(R_nominal), S(S_nominal), innovation_(innovation), HPHt_(HPHt), whitening_(noise), whitened_(noise.whiten(innovation)) {}
+  Reweighting(const Vector<M>& innovation, const Matrix<M>& HPHt, const Matrix<M>& R_nominal, const Whitening<M>& noise,
+              const Innovation<M>& S_nominal)
+      : R(R_nominal),
+        S(S_nominal),
+        innovation_(innovation),
+        HPHt_(HPHt),
+        whitening_(noise),
+        whitened_(noise.whiten(innovation)) {}
 
   /// Weighs anew until no weight moves more than the tolerance.
   void iterate(const Loss& loss, int max_iterations, double tolerance) {
@@ -60,8 +67,10 @@ class Reweighting {
 
 template <int N>
 RobustKalmanFilter<N>::RobustKalmanFilter(const Options& options) : options_(options) {
-  if (options.max_iterations < 1) throw std::invalid_argument(fmt::format("max_iterations is {} but must be at least 1", options.max_iterations));
-  if (!(options.tolerance > 0)) throw std::invalid_argument(fmt::format("tolerance is {} but must be positive", options.tolerance));
+  if (options.max_iterations < 1)
+    throw std::invalid_argument(fmt::format("max_iterations is {} but must be at least 1", options.max_iterations));
+  if (!(options.tolerance > 0))
+    throw std::invalid_argument(fmt::format("tolerance is {} but must be positive", options.tolerance));
 }
 
 template <int N>
@@ -73,7 +82,8 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::update(const Belief& prior, const 
 
 template <int N>
 template <int M>
-Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateMeasurementWeights(const Belief& prior, const LinearMeasurement<N, M>& z) const {
+Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateMeasurementWeights(const Belief& prior,
+                                                                       const LinearMeasurement<N, M>& z) const {
   Update<Belief, M> result;
   const Projection<N, M> projection(prior.covariance, z.H);
   const Whitening<M> whitening(z.R);
@@ -87,7 +97,8 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateMeasurementWeights(const Bel
     return result;
   }
   Reweighting<M> reweighting(z.innovation, projection.HPHt, z.R, whitening, S);
-  if (options_.loss.redescending() && options_.max_iterations > 1) reweighting.iterate(startingLoss(), options_.max_iterations, options_.tolerance);
+  if (options_.loss.redescending() && options_.max_iterations > 1)
+    reweighting.iterate(startingLoss(), options_.max_iterations, options_.tolerance);
   reweighting.iterate(options_.loss, options_.max_iterations, options_.tolerance);
   result.belief = condition(prior, projection, reweighting.R, reweighting.S, z.innovation);
   result.weights = reweighting.weights;
@@ -99,7 +110,8 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateMeasurementWeights(const Bel
 
 template <int N>
 template <int M>
-Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateBothWeights(const Belief& prior, const LinearMeasurement<N, M>& z) const {
+Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateBothWeights(const Belief& prior,
+                                                                const LinearMeasurement<N, M>& z) const {
   Update<Belief, M> result;
   result.belief = prior;
   result.innovation = z.innovation;
@@ -122,17 +134,20 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateBothWeights(const Belief& pr
     for (int i = 0; i < N; ++i) spread(i) = 1 / std::max(loss.weight(process_residual(i)), Whitening<M>::kLeastWeight);
     result.weights = weightsOf(loss, whitened);
     const Matrix<M> R = whitening.weighted(result.weights);
-    const Gaussian<N> weighted_prior{prior.mean, *root * spread.asDiagonal() * *root};  // Pw = P^{1/2} W1^{-1} P^{1/2} (19)
+    const Gaussian<N> weighted_prior{prior.mean,
+                                     *root * spread.asDiagonal() * *root};  // Pw = P^{1/2} W1^{-1} P^{1/2} (19)
     const Projection<N, M> projection(weighted_prior.covariance, z.H);
     const Innovation<M> Sw(projection.HPHt + R);
     const Vector<M> solved = Sw.solve(z.innovation);
     const Vector<N> next_process = spread.asDiagonal() * (*root * (z.H.transpose() * solved));
     const Vector<M> next = whitening.whiten(z.innovation - projection.HPHt * solved);
-    const double moved = std::max((next - whitened).cwiseAbs().maxCoeff(), (next_process - process_residual).cwiseAbs().maxCoeff());
+    const double moved =
+        std::max((next - whitened).cwiseAbs().maxCoeff(), (next_process - process_residual).cwiseAbs().maxCoeff());
     whitened = next;
     process_residual = next_process;
     result.belief = condition(weighted_prior, projection, R, Sw, z.innovation);
-    if (loss.kind() != options_.loss.kind() && (moved < options_.tolerance || result.iterations == options_.max_iterations))
+    if (loss.kind() != options_.loss.kind() &&
+        (moved < options_.tolerance || result.iterations == options_.max_iterations))
       loss = options_.loss;  // Huber has settled: redescend from there
     else
       result.converged = moved < options_.tolerance;

@@ -14,9 +14,13 @@ namespace sas_motion {
 
 template <int N>
 StudentTKalmanFilter<N>::StudentTKalmanFilter(const Options& options) : options_(options) {
-  if (!(options.degrees_of_freedom > 0)) throw std::invalid_argument(fmt::format("degrees_of_freedom is {} but must be positive", options.degrees_of_freedom));
-  if (options.max_iterations < 1) throw std::invalid_argument(fmt::format("max_iterations is {} but must be at least 1", options.max_iterations));
-  if (!(options.tolerance > 0)) throw std::invalid_argument(fmt::format("tolerance is {} but must be positive", options.tolerance));
+  if (!(options.degrees_of_freedom > 0))
+    throw std::invalid_argument(
+        fmt::format("degrees_of_freedom is {} but must be positive", options.degrees_of_freedom));
+  if (options.max_iterations < 1)
+    throw std::invalid_argument(fmt::format("max_iterations is {} but must be at least 1", options.max_iterations));
+  if (!(options.tolerance > 0))
+    throw std::invalid_argument(fmt::format("tolerance is {} but must be positive", options.tolerance));
 }
 
 template <int N>
@@ -36,7 +40,9 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
     return result;
   }
   const double nu = options_.degrees_of_freedom;
-  const auto weightsFor = [&](const Vector<M>& squared) -> Vector<M> { return (nu + 1) / (nu + squared.cwiseQuotient(variance).array()); };
+  const auto weightsFor = [&](const Vector<M>& squared) -> Vector<M> {
+    return (nu + 1) / (nu + squared.cwiseQuotient(variance).array());
+  };
   result.weights = weightsFor(z.innovation.cwiseAbs2() + T.diagonal());  // at the prediction
   Matrix<M> R = variance.cwiseQuotient(result.weights).asDiagonal();
   result.converged = false;
@@ -59,7 +65,8 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
 
 template <int N>
 Influence StudentTKalmanFilter<N>::influence(double residual, double variance) const {
-  const double nu = options_.degrees_of_freedom, scale = nu + std::max(0.0, variance), spread = scale + residual * residual;
+  const double nu = options_.degrees_of_freedom, scale = nu + std::max(0.0, variance),
+               spread = scale + residual * residual;
   const double lambda = (nu + 1) / spread;
   return {lambda * residual, lambda * (scale - residual * residual) / spread, std::min(1.0, lambda)};
 }

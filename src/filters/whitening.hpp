@@ -10,7 +10,8 @@
 
 namespace sas_motion {
 
-/// Residuals in units of their noise, by the Cholesky root R = L L^T, and the noise that weights turn R into: L W^{-1} L^T (19).
+/// Residuals in units of their noise, by the Cholesky root R = L L^T, and the noise that weights turn R into: L W^{-1}
+/// L^T (19).
 template <int M>
 class Whitening {
  public:
@@ -33,7 +34,9 @@ class Whitening<1> {
   explicit Whitening(const Matrix<1>& R) : variance_(R(0, 0)), inverse_root_(1 / std::sqrt(variance_)) {}
   bool valid() const { return variance_ > 0; }
   Vector<1> whiten(const Vector<1>& residual) const { return residual * inverse_root_; }
-  Matrix<1> weighted(const Vector<1>& weights) const { return Matrix<1>(variance_ / std::max(weights(0), kLeastWeight)); }
+  Matrix<1> weighted(const Vector<1>& weights) const {
+    return Matrix<1>(variance_ / std::max(weights(0), kLeastWeight));
+  }
   static constexpr double kLeastWeight = 1e-12;
 
  private:

@@ -42,7 +42,9 @@ class Tiling {
   int columns() const { return columns_; }
   /// From a tile's centre to its furthest pixel, with the columns beyond the image's edge that fill up its vectors [m].
   double radius() const { return std::hypot(0.5 * rows_ * grid_.range_step, columns_ * grid_.along_step); }
-  Eigen::Vector3d centre(const Patch& patch) const { return grid_.point(patch.row + 0.5 * (patch.rows - 1), patch.column + 0.5 * (patch.columns - 1)); }
+  Eigen::Vector3d centre(const Patch& patch) const {
+    return grid_.point(patch.row + 0.5 * (patch.rows - 1), patch.column + 0.5 * (patch.columns - 1));
+  }
   Tile tile(const Patch& patch, double cycles_per_metre, double samples_per_metre) const {
     Tile tile;
     tile.rows = patch.rows;
@@ -61,24 +63,28 @@ class Tiling {
   int rows_, columns_, across_, down_;
 };
 
-/// Lines first ... first + kBatch on the fine grid, with zeros on both sides as far as a tile reaches beyond its centre.
+/// Lines first ... first + kBatch on the fine grid, with zeros on both sides as far as a tile reaches beyond its
+/// centre.
 class FineLines {
  public:
   FineLines(const EchoLines& lines, double reach)
       : lines_(lines),
-        padding_(static_cast<int>(2 * reach / lines.sound_speed * lines.sample_rate * Upsampling::kFactor) + 4 * kTileLanes),
+        padding_(static_cast<int>(2 * reach / lines.sound_speed * lines.sample_rate * Upsampling::kFactor) +
+                 4 * kTileLanes),
         length_(static_cast<std::size_t>(lines.samples) * Upsampling::kFactor + 4 * static_cast<std::size_t>(padding_)),
         values_(2 * kBatch * length_) {}
 
   void load(std::size_t first, int threads) {
     first_ = first;
-    forEachTask(std::min(kBatch, lines_.paths.size() - first), threads,
-                [&](std::size_t i) { upsampling_.apply(lines_.line(first + i), lines_.samples, fine(i, 2 * padding_), plane()); });
+    forEachTask(std::min(kBatch, lines_.paths.size() - first), threads, [&](std::size_t i) {
+      upsampling_.apply(lines_.line(first + i), lines_.samples, fine(i, 2 * padding_), plane());
+    });
   }
   /// Points the tile's line at the sample before the centre's echo. False where no pixel of the tile can hear anything.
   bool aim(std::size_t line, double path_length, TileLine& result) {
     const double position = lines_.position(path_length) * Upsampling::kFactor, floor = std::floor(position);
-    if (!(floor > -static_cast<double>(padding_) && floor < static_cast<double>(lines_.samples) * Upsampling::kFactor + static_cast<double>(padding_)))
+    if (!(floor > -static_cast<double>(padding_) &&
+          floor < static_cast<double>(lines_.samples) * Upsampling::kFactor + static_cast<double>(padding_)))
       return false;
     const auto offset = static_cast<std::ptrdiff_t>(floor) + 2 * padding_;
     result.position = static_cast<float>(position - floor);
@@ -88,12 +94,15 @@ class FineLines {
   }
   static double bytes(const EchoLines& lines, double reach) {
     return 2.0 * kBatch * sizeof(float) *
-           (lines.samples * Upsampling::kFactor + 8 * reach / lines.sound_speed * lines.sample_rate * Upsampling::kFactor + 16 * kTileLanes);
+           (lines.samples * Upsampling::kFactor +
+            8 * reach / lines.sound_speed * lines.sample_rate * Upsampling::kFactor + 16 * kTileLanes);
   }
 
  private:
   /// Fine sample `offset` of a line, and from there to its imaginary part.
-  float* fine(std::size_t line, std::ptrdiff_t offset) { return values_.data() + 2 * line * length_ + (interleaved_ ? 2 : 1) * offset; }
+  float* fine(std::size_t line, std::ptrdiff_t offset) {
+    return values_.data() + 2 * line * length_ + (interleaved_ ? 2 : 1) * offset;
+  }
   std::ptrdiff_t plane() const { return interleaved_ ? 1 : static_cast<std::ptrdiff_t>(length_); }
 
   const EchoLines& lines_;
@@ -106,13 +115,15 @@ class FineLines {
 
 TileLeg tileLeg(const Eigen::Vector3d& antenna, const Eigen::Vector3d& centre, const ImageGrid& grid) {
   const Eigen::Vector3d way = centre - antenna;
-  return {static_cast<float>(2 * way.dot(grid.range_axis)), static_cast<float>(2 * way.dot(grid.along_axis)), static_cast<float>(way.norm()),
-          static_cast<float>(way.squaredNorm())};
+  return {static_cast<float>(2 * way.dot(grid.range_axis)), static_cast<float>(2 * way.dot(grid.along_axis)),
+          static_cast<float>(way.norm()), static_cast<float>(way.squaredNorm())};
 }
 
-/// With the receiver where it is when the centre's echo arrives. A pixel's echo arrives dL / c later, when the receiver has moved on: to first order in
-/// its speed over c, dL shrinks by 1 / (1 + w), where w is the receiver's speed towards the pixel over c.
-void setGeometry(TileLine& line, const EchoPath& path, const Eigen::Vector3d& centre, double path_length, double sound_speed, const ImageGrid& grid) {
+/// With the receiver where it is when the centre's echo arrives. A pixel's echo arrives dL / c later, when the receiver
+/// has moved on: to first order in its speed over c, dL shrinks by 1 / (1 + w), where w is the receiver's speed towards
+/// the pixel over c.
+void setGeometry(TileLine& line, const EchoPath& path, const Eigen::Vector3d& centre, double path_length,
+                 double sound_speed, const ImageGrid& grid) {
   const Eigen::Vector3d mach = path.receiver_velocity / sound_speed, receiver = path.receiver + mach * path_length;
   line.legs[0] = tileLeg(path.transmitter, centre, grid);
   line.legs[1] = tileLeg(receiver, centre, grid);
@@ -125,14 +136,20 @@ void setGeometry(TileLine& line, const EchoPath& path, const Eigen::Vector3d& ce
 }
 
 bool illuminates(const EchoPath& path, const Eigen::Vector3d& centre, double half_angle) {
-  return half_angle > kPi / 2 || std::abs(path.forward.dot((centre - path.transmitter).normalized())) <= std::sin(half_angle);
+  return half_angle > kPi / 2 ||
+         std::abs(path.forward.dot((centre - path.transmitter).normalized())) <= std::sin(half_angle);
 }
 
 class Backprojector {
  public:
   Backprojector(const EchoLines& lines, const ImageGrid& grid, const BackprojectionOptions& options)
-      : lines_(lines), options_(options), tiling_(grid), fine_(lines, 2 * tiling_.radius()), image_{grid, std::vector<std::complex<float>>(grid.pixels())} {
-    monostatic_ = std::all_of(lines.paths.begin(), lines.paths.end(), [](const EchoPath& path) { return path.monostatic(); });
+      : lines_(lines),
+        options_(options),
+        tiling_(grid),
+        fine_(lines, 2 * tiling_.radius()),
+        image_{grid, std::vector<std::complex<float>>(grid.pixels())} {
+    monostatic_ =
+        std::all_of(lines.paths.begin(), lines.paths.end(), [](const EchoPath& path) { return path.monostatic(); });
   }
 
   Image run() {
@@ -153,15 +170,18 @@ class Backprojector {
       const EchoPath& path = lines_.paths[i];
       const double length = pathLength(path, centre, lines_.sound_speed);
       TileLine& line = tile_lines[count];
-      if (!std::isfinite(length) || !illuminates(path, centre, options_.half_angle) || !fine_.aim(i, length, line)) continue;
+      if (!std::isfinite(length) || !illuminates(path, centre, options_.half_angle) || !fine_.aim(i, length, line))
+        continue;
       setGeometry(line, path, centre, length, lines_.sound_speed, image_.grid);
       const double turns = lines_.carrier / lines_.sound_speed * length;
       line.turns = static_cast<float>(turns - std::round(turns));
       ++count;
     }
-    const double cycles_per_metre = lines_.carrier / lines_.sound_speed, samples_per_metre = lines_.sample_rate * Upsampling::kFactor / lines_.sound_speed;
+    const double cycles_per_metre = lines_.carrier / lines_.sound_speed,
+                 samples_per_metre = lines_.sample_rate * Upsampling::kFactor / lines_.sound_speed;
     float real[kMostRows * kMostColumns] = {}, imaginary[kMostRows * kMostColumns] = {};
-    accumulateTile(tiling_.tile(patch, cycles_per_metre, samples_per_metre), tile_lines, count, monostatic_, real, imaginary);
+    accumulateTile(tiling_.tile(patch, cycles_per_metre, samples_per_metre), tile_lines, count, monostatic_, real,
+                   imaginary);
     for (int row = 0; row < patch.rows; ++row)
       for (int column = 0; column < patch.columns; ++column)
         image_.at(patch.row + row, patch.column + column) +=
@@ -180,11 +200,13 @@ class Backprojector {
 
 Image backproject(const EchoLines& lines, const ImageGrid& grid, const BackprojectionOptions& options) {
   checkGrid(grid);
-  const double needed = static_cast<double>(grid.pixels()) * sizeof(std::complex<float>) + FineLines::bytes(lines, 2 * Tiling(grid).radius());
+  const double needed = static_cast<double>(grid.pixels()) * sizeof(std::complex<float>) +
+                        FineLines::bytes(lines, 2 * Tiling(grid).radius());
   if (needed > options.memory_limit)
     throw std::invalid_argument(
-        fmt::format("backproject: an image of {} x {} pixels needs {:.0f} MB but may have {:.0f} MB; make the grid smaller or raise memory_limit", grid.rows,
-                    grid.columns, needed / 1e6, options.memory_limit / 1e6));
+        fmt::format("backproject: an image of {} x {} pixels needs {:.0f} MB but may have {:.0f} MB; make the grid "
+                    "smaller or raise memory_limit",
+                    grid.rows, grid.columns, needed / 1e6, options.memory_limit / 1e6));
   return Backprojector(lines, grid, options).run();
 }
 
@@ -198,7 +220,8 @@ Image backprojectReference(const EchoLines& lines, const ImageGrid& grid, int th
       std::complex<double> sum = 0;
       for (std::size_t i = 0; i < lines.paths.size(); ++i) {
         const double length = pathLength(lines.paths[i], point, lines.sound_speed);
-        sum += interpolator.at(lines.line(i), lines.samples, lines.position(length)) * std::polar(1.0, 2 * kPi * lines.carrier / lines.sound_speed * length);
+        sum += interpolator.at(lines.line(i), lines.samples, lines.position(length)) *
+               std::polar(1.0, 2 * kPi * lines.carrier / lines.sound_speed * length);
       }
       image.at(static_cast<int>(row), column) = std::complex<float>(sum);
     }

@@ -44,7 +44,8 @@ HWY_INLINE Complexes phasor(Floats turns) {
   return {cosine, hn::Mul(sine, x)};
 }
 
-/// A leg's length over that to the tile's centre, |a + d| - |a| = (2 a.d + d.d) / (|a + d| + |a|): no digits are lost. [m]
+/// A leg's length over that to the tile's centre, |a + d| - |a| = (2 a.d + d.d) / (|a + d| + |a|): no digits are lost.
+/// [m]
 HWY_INLINE Floats legDifference(const TileLeg& leg, float range, Floats track) {
   const F f;
   const auto row = hn::Set(f, range * (leg.along_range + range));
@@ -58,7 +59,8 @@ HWY_INLINE Floats pathDifference(const TileLine& line, float range, Floats track
   const F f;
   const auto out = legDifference(line.legs[0], range, track);
   if (kMonostatic) return hn::Add(out, out);
-  const auto doppler = hn::MulAdd(hn::Set(f, line.doppler_track), track, hn::Set(f, line.doppler + line.doppler_range * range));
+  const auto doppler =
+      hn::MulAdd(hn::Set(f, line.doppler_track), track, hn::Set(f, line.doppler + line.doppler_range * range));
   return hn::Mul(doppler, hn::Add(out, legDifference(line.legs[1], range, track)));
 }
 
@@ -76,14 +78,14 @@ HWY_INLINE Floats permute(const float* from, Integers index) {
 }
 
 HWY_INLINE Neighbours permuteAll(const TileLine& line, int first, Integers index) {
-  return {permute(line.real + first, index), permute(line.real + first + 1, index), permute(line.imaginary + first, index),
-          permute(line.imaginary + first + 1, index)};
+  return {permute(line.real + first, index), permute(line.real + first + 1, index),
+          permute(line.imaginary + first, index), permute(line.imaginary + first + 1, index)};
 }
 
 HWY_INLINE Neighbours gather(const TileLine& line, Integers index) {
   const F f;
-  return {hn::GatherIndex(f, line.real, index), hn::GatherIndex(f, line.real + 1, index), hn::GatherIndex(f, line.imaginary, index),
-          hn::GatherIndex(f, line.imaginary + 1, index)};
+  return {hn::GatherIndex(f, line.real, index), hn::GatherIndex(f, line.real + 1, index),
+          hn::GatherIndex(f, line.imaginary, index), hn::GatherIndex(f, line.imaginary + 1, index)};
 }
 
 /// Pixels beside each other along the track hear nearly the same samples: a few blocks of two registers hold them all.
@@ -102,7 +104,8 @@ HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
     const auto more = permuteAll(line, first, inside);
     const auto chosen = hn::RebindMask(F(), beyond);
     found = {hn::IfThenElse(chosen, more.real, found.real), hn::IfThenElse(chosen, more.next_real, found.next_real),
-             hn::IfThenElse(chosen, more.imaginary, found.imaginary), hn::IfThenElse(chosen, more.next_imaginary, found.next_imaginary)};
+             hn::IfThenElse(chosen, more.imaginary, found.imaginary),
+             hn::IfThenElse(chosen, more.next_imaginary, found.next_imaginary)};
     beyond = hn::Not(hn::Lt(inside, block));
   }
   return found;
@@ -115,13 +118,15 @@ HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
   HWY_ALIGN int at[8];
   hn::Store(index, I(), at);
   const auto load = [&](int low, int high) {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(line.real + 2 * static_cast<std::ptrdiff_t>(at[low]))),
-                                _mm_loadu_ps(line.real + 2 * static_cast<std::ptrdiff_t>(at[high])), 1);
+    return _mm256_insertf128_ps(
+        _mm256_castps128_ps256(_mm_loadu_ps(line.real + 2 * static_cast<std::ptrdiff_t>(at[low]))),
+        _mm_loadu_ps(line.real + 2 * static_cast<std::ptrdiff_t>(at[high])), 1);
   };
   const __m256 a = load(0, 4), b = load(1, 5), c = load(2, 6), d = load(3, 7);
-  const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d), next_ab = _mm256_unpackhi_ps(a, b), next_cd = _mm256_unpackhi_ps(c, d);
-  return {Floats{_mm256_shuffle_ps(ab, cd, 0x44)}, Floats{_mm256_shuffle_ps(next_ab, next_cd, 0x44)}, Floats{_mm256_shuffle_ps(ab, cd, 0xEE)},
-          Floats{_mm256_shuffle_ps(next_ab, next_cd, 0xEE)}};
+  const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d), next_ab = _mm256_unpackhi_ps(a, b),
+               next_cd = _mm256_unpackhi_ps(c, d);
+  return {Floats{_mm256_shuffle_ps(ab, cd, 0x44)}, Floats{_mm256_shuffle_ps(next_ab, next_cd, 0x44)},
+          Floats{_mm256_shuffle_ps(ab, cd, 0xEE)}, Floats{_mm256_shuffle_ps(next_ab, next_cd, 0xEE)}};
 }
 #else
 constexpr bool kInterleaved = true;
@@ -129,8 +134,8 @@ constexpr bool kInterleaved = true;
 HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
   const F f;
   const auto at = hn::Add(index, index);
-  return {hn::GatherIndex(f, line.real, at), hn::GatherIndex(f, line.real + 2, at), hn::GatherIndex(f, line.real + 1, at),
-          hn::GatherIndex(f, line.real + 3, at)};
+  return {hn::GatherIndex(f, line.real, at), hn::GatherIndex(f, line.real + 2, at),
+          hn::GatherIndex(f, line.real + 1, at), hn::GatherIndex(f, line.real + 3, at)};
 }
 #endif
 
@@ -139,7 +144,8 @@ HWY_INLINE Complexes sampleAt(const TileLine& line, Floats position) {
   const auto floor = hn::Floor(position);
   const auto weight = hn::Sub(position, floor);
   const auto at = neighbours(line, hn::ConvertTo(I(), floor));
-  return {hn::MulAdd(weight, hn::Sub(at.next_real, at.real), at.real), hn::MulAdd(weight, hn::Sub(at.next_imaginary, at.imaginary), at.imaginary)};
+  return {hn::MulAdd(weight, hn::Sub(at.next_real, at.real), at.real),
+          hn::MulAdd(weight, hn::Sub(at.next_imaginary, at.imaginary), at.imaginary)};
 }
 
 template <bool kMonostatic>
@@ -147,7 +153,8 @@ HWY_INLINE void addLine(const Tile& tile, const TileLine& line, float range, Flo
   const F f;
   const auto difference = pathDifference<kMonostatic>(line, range, track);
   const auto carrier = phasor(hn::MulAdd(difference, hn::Set(f, tile.cycles_per_metre), hn::Set(f, line.turns)));
-  const auto sample = sampleAt(line, hn::MulAdd(difference, hn::Set(f, tile.samples_per_metre), hn::Set(f, line.position)));
+  const auto sample =
+      sampleAt(line, hn::MulAdd(difference, hn::Set(f, tile.samples_per_metre), hn::Set(f, line.position)));
   sum.real = hn::NegMulAdd(sample.imaginary, carrier.imaginary, hn::MulAdd(sample.real, carrier.real, sum.real));
   sum.imaginary = hn::MulAdd(sample.imaginary, carrier.real, hn::MulAdd(sample.real, carrier.imaginary, sum.imaginary));
 }
@@ -161,7 +168,8 @@ void accumulate(const Tile& tile, const TileLine* lines, int count, float* real,
     const float range = tile.first_range + static_cast<float>(row) * tile.range_step;
     for (int column = 0; column < tile.columns; column += 2 * lanes) {
       const auto track = hn::MulAdd(hn::Iota(f, static_cast<float>(column)), step, hn::Set(f, tile.first_track));
-      const auto next_track = hn::MulAdd(hn::Iota(f, static_cast<float>(column + lanes)), step, hn::Set(f, tile.first_track));
+      const auto next_track =
+          hn::MulAdd(hn::Iota(f, static_cast<float>(column + lanes)), step, hn::Set(f, tile.first_track));
       const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(row) * tile.columns + column;
       float *const re = real + pixel, *const im = imaginary + pixel;
       Complexes sum{hn::LoadU(f, re), hn::LoadU(f, im)}, next{hn::LoadU(f, re + lanes), hn::LoadU(f, im + lanes)};
@@ -177,14 +185,16 @@ void accumulate(const Tile& tile, const TileLine* lines, int count, float* real,
   }
 }
 
-void accumulateHere(const Tile& tile, const TileLine* lines, int count, bool monostatic, float* real, float* imaginary) {
+void accumulateHere(const Tile& tile, const TileLine* lines, int count, bool monostatic, float* real,
+                    float* imaginary) {
   if (monostatic)
     accumulate<true>(tile, lines, count, real, imaginary);
   else
     accumulate<false>(tile, lines, count, real, imaginary);
 }
 
-void upsampleHere(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine, std::ptrdiff_t plane) {
+void upsampleHere(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine,
+                  std::ptrdiff_t plane) {
   const hn::CappedTag<float, kUpsamplingLanes> f;
   for (int n = 0; n < samples; ++n) {
     const int first = std::max(0, taps.before - n), last = std::min(taps.count, samples + taps.before - n);
@@ -224,11 +234,13 @@ HWY_EXPORT(targetHere);
 HWY_EXPORT(upsampleHere);
 HWY_EXPORT(interleavesHere);
 
-void accumulateTile(const Tile& tile, const TileLine* lines, int count, bool monostatic, float* real, float* imaginary) {
+void accumulateTile(const Tile& tile, const TileLine* lines, int count, bool monostatic, float* real,
+                    float* imaginary) {
   HWY_DYNAMIC_DISPATCH(accumulateHere)(tile, lines, count, monostatic, real, imaginary);
 }
 
-void upsampleLine(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine, std::ptrdiff_t plane) {
+void upsampleLine(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine,
+                  std::ptrdiff_t plane) {
   HWY_DYNAMIC_DISPATCH(upsampleHere)(line, samples, taps, fine, plane);
 }
 

@@ -15,11 +15,12 @@ struct TileLeg {
 
 /// One line at one tile: float constants about the tile's centre, where range, phase and position were found in double.
 struct TileLine {
-  TileLeg legs[2];                                          ///< transmitter, receiver; the first alone where they coincide
-  float doppler = 1, doppler_range = 0, doppler_track = 0;  ///< path to a moving receiver over that to a still one, and its gradient [-, 1/m, 1/m]
-  float turns = 0;                                          ///< carrier phase at the centre [cycles]
-  float position = 0;                                       ///< of the centre's echo after `real`, in [0, 1) [samples]
-  const float* real = nullptr;                              ///< at the sample before the centre's echo
+  TileLeg legs[2];  ///< transmitter, receiver; the first alone where they coincide
+  float doppler = 1, doppler_range = 0,
+        doppler_track = 0;      ///< path to a moving receiver over that to a still one, and its gradient [-, 1/m, 1/m]
+  float turns = 0;              ///< carrier phase at the centre [cycles]
+  float position = 0;           ///< of the centre's echo after `real`, in [0, 1) [samples]
+  const float* real = nullptr;  ///< at the sample before the centre's echo
   const float* imaginary = nullptr;
 };
 
@@ -31,7 +32,8 @@ struct Tile {
 };
 constexpr int kTileLanes = 32;
 
-/// Adds `count` lines to the tile's pixels, rows by columns. `monostatic` tells that the first leg counts twice and the second is not there.
+/// Adds `count` lines to the tile's pixels, rows by columns. `monostatic` tells that the first leg counts twice and the
+/// second is not there.
 void accumulateTile(const Tile& tile, const TileLine* lines, int count, bool monostatic, float* real, float* imaginary);
 
 constexpr int kUpsamplingLanes = 16;
@@ -42,11 +44,13 @@ struct UpsamplingTaps {
   int stride = 0;  ///< fine samples a sample; at most kUpsamplingLanes
 };
 
-/// Complex values lie beside each other in a fine line, or the imaginary parts lie a plane behind the real ones: as the instructions like it.
+/// Complex values lie beside each other in a fine line, or the imaginary parts lie a plane behind the real ones: as the
+/// instructions like it.
 bool kernelInterleaves();
 
 /// A line on the finer grid; samples outside the line are zero. Writes kUpsamplingLanes values from the last stride on.
-void upsampleLine(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine, std::ptrdiff_t plane);
+void upsampleLine(const std::complex<float>* line, int samples, const UpsamplingTaps& taps, float* fine,
+                  std::ptrdiff_t plane);
 
 const char* kernelTarget();
 

@@ -32,11 +32,13 @@ double power(const AlignedLines& lines, std::size_t channel) {
   return sum / static_cast<double>(lines.samples);
 }
 
-/// Coherence at this lag of elements and shift of samples, blocks of range summed without their phases. Blocks leave a margin for shifts.
+/// Coherence at this lag of elements and shift of samples, blocks of range summed without their phases. Blocks leave a
+/// margin for shifts.
 double coherence(const AlignedLines& lines, int lag, int shift, int margin) {
   double sum = 0, x = 0, y = 0;
   int samples = 0;
-  for (int begin = margin; begin + kCoherentSamples + margin <= lines.samples; begin += kCoherentSamples, samples += kCoherentSamples)
+  for (int begin = margin; begin + kCoherentSamples + margin <= lines.samples;
+       begin += kCoherentSamples, samples += kCoherentSamples)
     sum += correlation(lines, lag, begin, shift);
   for (const auto& [a, b] : pairsAtLag(static_cast<int>(lines.channels.size() / 2), lag)) {
     x += power(lines, a);
@@ -53,8 +55,10 @@ double parabolaPeak(double before, double middle, double after) {
 
 }  // namespace
 
-CoarseDisplacement searchDisplacement(const AlignedLines& lines, const PingPair& pair, const SonarDescription& sonar, const MicronavigationOptions& options) {
-  const int reach = sonar.receivers - options.min_overlap, shifts = static_cast<int>(std::ceil(options.search / lines.range_step));
+CoarseDisplacement searchDisplacement(const AlignedLines& lines, const PingPair& pair, const SonarDescription& sonar,
+                                      const MicronavigationOptions& options) {
+  const int reach = sonar.receivers - options.min_overlap,
+            shifts = static_cast<int>(std::ceil(options.search / lines.range_step));
   const int margin = shifts + 1;
   CoarseDisplacement best;
   int best_shift = 0;
@@ -63,9 +67,13 @@ CoarseDisplacement searchDisplacement(const AlignedLines& lines, const PingPair&
       const double value = coherence(lines, lag, shift, margin);
       if (value > best.coherence) best.coherence = value, best.lag = lag, best_shift = shift;
     }
-  const auto beside = [&](int lag, int shift) { return std::abs(lag) < sonar.receivers ? coherence(lines, lag, shift, margin) : 0; };
-  const double lag = best.lag + parabolaPeak(beside(best.lag - 1, best_shift), best.coherence, beside(best.lag + 1, best_shift));
-  const double shift = best_shift + parabolaPeak(beside(best.lag, best_shift - 1), best.coherence, beside(best.lag, best_shift + 1));
+  const auto beside = [&](int lag, int shift) {
+    return std::abs(lag) < sonar.receivers ? coherence(lines, lag, shift, margin) : 0;
+  };
+  const double lag =
+      best.lag + parabolaPeak(beside(best.lag - 1, best_shift), best.coherence, beside(best.lag + 1, best_shift));
+  const double shift =
+      best_shift + parabolaPeak(beside(best.lag, best_shift - 1), best.coherence, beside(best.lag, best_shift + 1));
   best.along = lag * sonar.spacing / 2 - pair.displacement(lines.range(0.5 * lines.samples)).x();
   best.sight = -shift * lines.range_step;
   return best;
@@ -76,7 +84,8 @@ Eigen::Vector3d envelopeDisplacement(const AlignedLines& lines, const PingPair& 
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (int begin = 1; begin + kCoherentSamples + 1 <= lines.samples; begin += kCoherentSamples) {
-    const double shift = parabolaPeak(correlation(lines, lag, begin, -1), correlation(lines, lag, begin, 0), correlation(lines, lag, begin, 1));
+    const double shift = parabolaPeak(correlation(lines, lag, begin, -1), correlation(lines, lag, begin, 0),
+                                      correlation(lines, lag, begin, 1));
     const Eigen::Vector3d sight = pair.sight(lines.range(begin + 0.5 * kCoherentSamples), 0);
     const Eigen::Vector2d u(sight.dot(pair.across), sight.dot(pair.down));
     normal += u * u.transpose() + kRidge * Eigen::Matrix2d::Identity();

@@ -17,10 +17,11 @@ struct CoarseDisplacement {
 };
 
 /// The peak of the coherence over the lag of elements and of ranges, by parabolas about the largest values.
-CoarseDisplacement searchDisplacement(const AlignedLines& lines, const PingPair& pair, const SonarDescription& sonar, const MicronavigationOptions& options);
+CoarseDisplacement searchDisplacement(const AlignedLines& lines, const PingPair& pair, const SonarDescription& sonar,
+                                      const MicronavigationOptions& options);
 
-/// How much nearer the second ping is along the line of sight of each stretch of range than believed, from its envelope; fitted by least squares on the track's
-/// axes [m].
+/// How much nearer the second ping is along the line of sight of each stretch of range than believed, from its
+/// envelope; fitted by least squares on the track's axes [m].
 Eigen::Vector3d envelopeDisplacement(const AlignedLines& lines, const PingPair& pair, int lag);
 
 }  // namespace sas_motion::imaging

@@ -12,7 +12,8 @@ namespace {
 /// The oversampled cut's power with the places that bound its parts.
 class Lobes {
  public:
-  explicit Lobes(std::vector<double> power) : power_(std::move(power)), peak_(std::max_element(power_.begin(), power_.end()) - power_.begin()) {
+  explicit Lobes(std::vector<double> power)
+      : power_(std::move(power)), peak_(std::max_element(power_.begin(), power_.end()) - power_.begin()) {
     left_null_ = firstMinimum(-1);
     right_null_ = firstMinimum(1);
   }
@@ -20,14 +21,17 @@ class Lobes {
   /// By a parabola through the peak and its neighbours.
   double peakPosition() const {
     if (peak_ == 0 || peak_ + 1 == size()) return static_cast<double>(peak_);
-    const double before = power_[peak_ - 1], at = power_[peak_], after = power_[peak_ + 1], bend = before - 2 * at + after;
+    const double before = power_[peak_ - 1], at = power_[peak_], after = power_[peak_ + 1],
+                 bend = before - 2 * at + after;
     return static_cast<double>(peak_) + (bend < 0 ? 0.5 * (before - after) / bend : 0.0);
   }
   double peakPower() const { return power_[peak_]; }
   double halfPowerWidth() const { return crossing(1) + crossing(-1); }
   std::ptrdiff_t mainLobe() const { return right_null_ - left_null_; }
   std::ptrdiff_t extent() const { return 10 * mainLobe() / 2; }
-  bool complete() const { return peak_ - extent() >= 0 && peak_ + extent() < size() && left_null_ > 0 && right_null_ + 1 < size(); }
+  bool complete() const {
+    return peak_ - extent() >= 0 && peak_ + extent() < size() && left_null_ > 0 && right_null_ + 1 < size();
+  }
   double highestSideLobe() const {
     double highest = 0;
     forSideLobes([&](double power) { highest = std::max(highest, power); });
@@ -61,7 +65,8 @@ class Lobes {
   }
   template <class Use>
   void forSideLobes(Use&& use) const {
-    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, peak_ - extent()); i <= std::min(size() - 1, peak_ + extent()); ++i)
+    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, peak_ - extent()); i <= std::min(size() - 1, peak_ + extent());
+         ++i)
       if (i < left_null_ || i > right_null_) use(power_[i]);
   }
 
@@ -74,7 +79,8 @@ class Lobes {
 CutMeasures measureCut(const std::vector<std::complex<double>>& cut, double step) {
   const Spectrum fine = oversample(cut, kOversampling);
   std::vector<double> power(fine.size());
-  std::transform(fine.begin(), fine.end(), power.begin(), [](const std::complex<double>& value) { return std::norm(value); });
+  std::transform(fine.begin(), fine.end(), power.begin(),
+                 [](const std::complex<double>& value) { return std::norm(value); });
   const Lobes lobes(std::move(power));
   const double fine_step = step / kOversampling;
   CutMeasures measures;

@@ -33,7 +33,9 @@ double pathLength(const EchoPath& path, const Eigen::Vector3d& point, double sou
 }
 
 double beamAmplitude(const EchoPath& path, const Eigen::Vector3d& point, const SonarDescription& sonar) {
-  const auto element = [&](const Eigen::Vector3d& place) { return sinc(sonar.element / sonar.wavelength() * path.forward.dot((point - place).normalized())); };
+  const auto element = [&](const Eigen::Vector3d& place) {
+    return sinc(sonar.element / sonar.wavelength() * path.forward.dot((point - place).normalized()));
+  };
   return element(path.transmitter) * element(path.receiver);
 }
 

@@ -30,25 +30,28 @@ EchoLines emptyLines(const SonarDescription& sonar, const std::vector<EchoPath>&
 }
 
 bool hidden(const Scene& scene, const EchoPath& path, const Eigen::Vector3d& point) {
-  return std::any_of(scene.blocks.begin(), scene.blocks.end(),
-                     [&](const Block& block) { return block.hides(path.transmitter, point) || block.hides(path.receiver, point); });
+  return std::any_of(scene.blocks.begin(), scene.blocks.end(), [&](const Block& block) {
+    return block.hides(path.transmitter, point) || block.hides(path.receiver, point);
+  });
 }
 
 /// What the bottom would answer to an impulse that fills the band.
-void addScatterers(Spectrum& line, const EchoLines& echoes, const EchoPath& path, double slant_error, const SonarDescription& sonar, const Scene& scene,
-                   const Interpolator& interpolator) {
+void addScatterers(Spectrum& line, const EchoLines& echoes, const EchoPath& path, double slant_error,
+                   const SonarDescription& sonar, const Scene& scene, const Interpolator& interpolator) {
   for (const auto& scatterer : scene.scatterers) {
     if (hidden(scene, path, scatterer.position)) continue;
     const double length = pathLength(path, scatterer.position, sonar.sound_speed) + 2 * slant_error;
     const double beam = beamAmplitude(path, scatterer.position, sonar);
     const double turns = sonar.carrier / sonar.sound_speed * length;
-    interpolator.deposit(line, echoes.position(length), scatterer.amplitude * std::polar(beam, -2 * kPi * (turns - std::floor(turns))));
+    interpolator.deposit(line, echoes.position(length),
+                         scatterer.amplitude * std::polar(beam, -2 * kPi * (turns - std::floor(turns))));
   }
 }
 
 }  // namespace
 
-EchoLines simulateEchoes(const SonarDescription& sonar, const std::vector<EchoPath>& paths, const Scene& scene, const EchoOptions& options) {
+EchoLines simulateEchoes(const SonarDescription& sonar, const std::vector<EchoPath>& paths, const Scene& scene,
+                         const EchoOptions& options) {
   if (!options.slant_errors.empty() && options.slant_errors.size() != paths.size())
     throw std::invalid_argument("simulateEchoes: slant_errors must be empty or one a line");
   Spectrum pulse = chirp(sonar);
@@ -62,14 +65,16 @@ EchoLines simulateEchoes(const SonarDescription& sonar, const std::vector<EchoPa
   forEachTask(paths.size(), options.threads, [&](std::size_t i) {
     Fourier fourier(length);
     Spectrum line(bottom_samples);
-    addScatterers(line, echoes, paths[i], options.slant_errors.empty() ? 0 : options.slant_errors[i], sonar, scene, interpolator);
+    addScatterers(line, echoes, paths[i], options.slant_errors.empty() ? 0 : options.slant_errors[i], sonar, scene,
+                  interpolator);
     line.resize(length);
     fourier.forward(line);
     for (std::size_t k = 0; k < length; ++k) line[k] *= pulse[k];
     fourier.inverse(line);
     Random random(options.seed, i);
     for (std::size_t n = 0; n < samples; ++n) {
-      if (options.noise > 0) line[n] += options.noise * std::sqrt(0.5) * std::complex<double>(random.gaussian(), random.gaussian());
+      if (options.noise > 0)
+        line[n] += options.noise * std::sqrt(0.5) * std::complex<double>(random.gaussian(), random.gaussian());
       echoes.line(i)[n] = std::complex<float>(line[n]);
     }
   });

@@ -15,13 +15,15 @@ namespace {
 
 constexpr std::size_t kFewLines = 4;  // summed line by line
 constexpr std::size_t kChildren = 4;
-constexpr double kOversampling = 2;          // of polar images, both ways
-constexpr int kMarginPerLevel = 6;           // range samples: a parent's margin and the taps beyond it
-constexpr double kLargestCosineStep = 0.03;  // the taps beyond the grid then stay well away from the track's own direction
+constexpr double kOversampling = 2;  // of polar images, both ways
+constexpr int kMarginPerLevel = 6;   // range samples: a parent's margin and the taps beyond it
+constexpr double kLargestCosineStep =
+    0.03;  // the taps beyond the grid then stay well away from the track's own direction
 
 class Factorization {
  public:
-  Factorization(const EchoLines& lines, const ImageGrid& grid, int threads) : lines_(lines), grid_(grid), threads_(threads) {}
+  Factorization(const EchoLines& lines, const ImageGrid& grid, int threads)
+      : lines_(lines), grid_(grid), threads_(threads) {}
 
   Image run() const {
     const std::vector<PolarImage> parts = children(0, lines_.paths.size(), 1, threads_);
@@ -38,8 +40,9 @@ class Factorization {
   std::vector<PolarImage> children(std::size_t first, std::size_t last, int level, int threads) const {
     const std::size_t count = std::min(kChildren, last - first);
     std::vector<PolarImage> parts(count, PolarImage(grid_, grid_.origin, 1, 1, 0));
-    forEachTask(count, threads,
-                [&](std::size_t i) { parts[i] = aperture(first + (last - first) * i / count, first + (last - first) * (i + 1) / count, level); });
+    forEachTask(count, threads, [&](std::size_t i) {
+      parts[i] = aperture(first + (last - first) * i / count, first + (last - first) * (i + 1) / count, level);
+    });
     return parts;
   }
 
@@ -52,12 +55,14 @@ class Factorization {
       for (int range = 0; range < image.ranges(); ++range) {
         const PolarPoint polar = image.sample(range, cosine);
         Eigen::Vector3d point;
-        if (image.place(polar, point)) image.at(range, cosine) = few ? summed(first, last, point, polar.range) : merged(parts, point, polar.range);
+        if (image.place(polar, point))
+          image.at(range, cosine) = few ? summed(first, last, point, polar.range) : merged(parts, point, polar.range);
       }
     return image;
   }
 
-  /// With steps that sample the band of range, and that of the cosine: an aperture of length A turns 2 A / lambda cycles over a unit of it.
+  /// With steps that sample the band of range, and that of the cosine: an aperture of length A turns 2 A / lambda
+  /// cycles over a unit of it.
   PolarImage empty(std::size_t first, std::size_t last, int level) const {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (std::size_t i = first; i < last; ++i) centre += phaseCentre(i) / static_cast<double>(last - first);
@@ -87,7 +92,9 @@ class Factorization {
     return std::complex<float>(sum);
   }
 
-  std::complex<double> carrier(double length) const { return std::polar(1.0, 2 * kPi * lines_.carrier / lines_.sound_speed * length); }
+  std::complex<double> carrier(double length) const {
+    return std::polar(1.0, 2 * kPi * lines_.carrier / lines_.sound_speed * length);
+  }
 
   /// Between the transmitter and where the receiver is when the echo from the grid's middle arrives.
   Eigen::Vector3d phaseCentre(std::size_t i) const {
@@ -106,7 +113,8 @@ class Factorization {
 void checkSides(const EchoLines& lines, const ImageGrid& grid) {
   for (const auto& path : lines.paths)
     if (!((grid.origin - path.transmitter).dot(grid.range_axis) > 0))
-      throw std::invalid_argument("backprojectFactorized: the grid reaches below or behind the sonar; begin it further away");
+      throw std::invalid_argument(
+          "backprojectFactorized: the grid reaches below or behind the sonar; begin it further away");
 }
 
 }  // namespace

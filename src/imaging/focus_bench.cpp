@@ -19,10 +19,13 @@ namespace {
 
 constexpr int kHalfChip = 64;  // pixels: 25 resolutions, so that ten null widths of a tapered aperture fit
 
-double lengthOf(const std::vector<PingPose>& poses) { return (poses.back().position - poses.front().position).head<2>().norm(); }
+double lengthOf(const std::vector<PingPose>& poses) {
+  return (poses.back().position - poses.front().position).head<2>().norm();
+}
 
 /// Echoes from the true track, compressed.
-EchoLines listen(const FocusSettings& settings, const std::vector<PingPose>& truth, const ImageGrid& grid, int threads) {
+EchoLines listen(const FocusSettings& settings, const std::vector<PingPose>& truth, const ImageGrid& grid,
+                 int threads) {
   EchoOptions echo;
   echo.noise = settings.noise;
   echo.seed = settings.seed;
@@ -30,21 +33,25 @@ EchoLines listen(const FocusSettings& settings, const std::vector<PingPose>& tru
   CompressionOptions compression;
   compression.filter = RangeFilter::Equalized;
   compression.threads = threads;
-  return compressRange(simulateEchoes(settings.sonar, echoPaths(settings.sonar, truth), focusScene(settings, grid), echo), settings.sonar, compression);
+  return compressRange(
+      simulateEchoes(settings.sonar, echoPaths(settings.sonar, truth), focusScene(settings, grid), echo),
+      settings.sonar, compression);
 }
 
 void requireMemory(const FocusSettings& settings, const ImageGrid& grid, std::size_t lines) {
   const double needed = memoryNeeded(settings, grid, lines);
   if (needed > settings.memory_limit)
     throw std::invalid_argument(
-        fmt::format("{} lines, {} x {} pixels and the scene need {:.0f} MB but may have {:.0f} MB; set a shorter aperture.duration, a smaller "
+        fmt::format("{} lines, {} x {} pixels and the scene need {:.0f} MB but may have {:.0f} MB; set a shorter "
+                    "aperture.duration, a smaller "
                     "image.margin or speckle.density, or raise memory_limit",
                     lines, grid.rows, grid.columns, needed / 1e6, settings.memory_limit / 1e6));
 }
 
 }  // namespace
 
-FocusBench::FocusBench(const FocusSettings& settings, std::vector<double> times, std::vector<PingPose> truth, int threads)
+FocusBench::FocusBench(const FocusSettings& settings, std::vector<double> times, std::vector<PingPose> truth,
+                       int threads)
     : settings_(settings),
       times_(std::move(times)),
       truth_(std::move(truth)),
@@ -94,15 +101,18 @@ FocusedImage FocusBench::backprojected(const EchoLines& lines, const std::vector
 
 FocusedImage FocusBench::measured(Image image, const std::vector<PingPose>& poses) const {
   FocusedImage result;
-  for (std::size_t target = 0; target < places_.size(); ++target) result.targets.push_back(measuredTarget(image, poses, target));
+  for (std::size_t target = 0; target < places_.size(); ++target)
+    result.targets.push_back(measuredTarget(image, poses, target));
   result.whole_image_islr = wholeImageIslr(image, result.targets.front());
   result.entropy = imageEntropy(image);
   result.image = std::move(image);
   return result;
 }
 
-/// Looks for the peak where mean and trend of the trajectory's error must have moved it, but measures its error from where the target is.
-PointTargetMeasures FocusBench::measuredTarget(const Image& image, const std::vector<PingPose>& poses, std::size_t target) const {
+/// Looks for the peak where mean and trend of the trajectory's error must have moved it, but measures its error from
+/// where the target is.
+PointTargetMeasures FocusBench::measuredTarget(const Image& image, const std::vector<PingPose>& poses,
+                                               std::size_t target) const {
   const Eigen::Vector3d& place = places_[target];
   const auto error = apertureTrajectoryError(settings_.sonar, times_, truth_, poses, place);
   ChipOptions chip;

@@ -16,7 +16,8 @@ FocusImage written(const FocusedImage& focused, const std::string& folder, const
 
 }  // namespace
 
-FocusedTrajectory focusAlong(FocusBench& bench, const std::vector<PingPose>& poses, const std::string& folder, const std::string& name, bool autofocus) {
+FocusedTrajectory focusAlong(FocusBench& bench, const std::vector<PingPose>& poses, const std::string& folder,
+                             const std::string& name, bool autofocus) {
   FocusedTrajectory result{name, "", bench.error(poses), {}, std::nullopt};
   const FocusedImage focused = bench.focus(poses);
   result.image = written(focused, folder, name);

@@ -21,22 +21,27 @@ constexpr double kStepOverResolution = 0.4;  // leaves room for the beam's edges
 /// Outwards from the track.
 Eigen::Vector3d lookDirection(const FocusSettings& settings) { return {0, settings.starboard ? -1.0 : 1.0, 0}; }
 
-double groundRange(const SonarDescription& sonar, double range) { return std::sqrt(range * range - sonar.altitude * sonar.altitude); }
+double groundRange(const SonarDescription& sonar, double range) {
+  return std::sqrt(range * range - sonar.altitude * sonar.altitude);
+}
 
 double leastRange(const FocusSettings& settings) {
   const auto nearer = [](const TargetSettings& a, const TargetSettings& b) { return a.range < b.range; };
   return std::min_element(settings.targets.begin(), settings.targets.end(), nearer)->range;
 }
 
-/// Along track, of an aperture of this length; the elements hear little beyond the first null of their beam, however long it is.
+/// Along track, of an aperture of this length; the elements hear little beyond the first null of their beam, however
+/// long it is.
 double alongResolution(const FocusSettings& settings, double aperture_length) {
-  return std::max(settings.sonar.wavelength() * leastRange(settings) / (2 * aperture_length), settings.sonar.element / 4);
+  return std::max(settings.sonar.wavelength() * leastRange(settings) / (2 * aperture_length),
+                  settings.sonar.element / 4);
 }
 
 int pixelCount(const char* key, double length, double step) {
   const double count = std::ceil(length / step) + 1;
   if (count > kMostPixels)
-    throw std::invalid_argument(fmt::format("image.{} is {:.3g}, which makes {:.3g} pixels; at most {} are possible", key, step, count, kMostPixels));
+    throw std::invalid_argument(fmt::format("image.{} is {:.3g}, which makes {:.3g} pixels; at most {} are possible",
+                                            key, step, count, kMostPixels));
   return static_cast<int>(count);
 }
 
@@ -48,8 +53,9 @@ Scene speckle(const FocusSettings& settings, const ImageGrid& grid) {
   options.density = settings.speckle.density;
   std::vector<Block> blocks;
   if (settings.speckle.block) {
-    const Eigen::Vector3d middle =
-        targetPlaces(settings).front() + Eigen::Vector3d::UnitX() * settings.speckle.block_along + lookDirection(settings) * settings.speckle.block_range;
+    const Eigen::Vector3d middle = targetPlaces(settings).front() +
+                                   Eigen::Vector3d::UnitX() * settings.speckle.block_along +
+                                   lookDirection(settings) * settings.speckle.block_range;
     const Eigen::Vector3d size = settings.speckle.block_size, half(size.x() / 2, size.y() / 2, 0);
     blocks.push_back({middle - half, middle + half + Eigen::Vector3d(0, 0, size.z())});
   }
@@ -68,7 +74,8 @@ double apertureTime(const FocusSettings& settings, double speed) {
 std::vector<Eigen::Vector3d> targetPlaces(const FocusSettings& settings) {
   std::vector<Eigen::Vector3d> places;
   for (const auto& target : settings.targets)
-    places.emplace_back(Eigen::Vector3d::UnitX() * target.along + lookDirection(settings) * groundRange(settings.sonar, target.range));
+    places.emplace_back(Eigen::Vector3d::UnitX() * target.along +
+                        lookDirection(settings) * groundRange(settings.sonar, target.range));
   return places;
 }
 
@@ -79,18 +86,21 @@ ImageGrid focusGrid(const FocusSettings& settings, double aperture_length, int h
   grid.along_axis = Eigen::Vector3d::UnitX();
   const GridSettings& image = settings.image;
   grid.range_step = image.range_step > 0 ? image.range_step : kStepOverResolution * sonar.rangeResolution();
-  grid.along_step = image.along_step > 0 ? image.along_step : kStepOverResolution * alongResolution(settings, aperture_length);
-  const double margin_needed = (half_chip + 1) * std::max(grid.range_step, grid.along_step) + 0.1;  // 0.1 m to look for a peak in
+  grid.along_step =
+      image.along_step > 0 ? image.along_step : kStepOverResolution * alongResolution(settings, aperture_length);
+  const double margin_needed =
+      (half_chip + 1) * std::max(grid.range_step, grid.along_step) + 0.1;  // 0.1 m to look for a peak in
   if (image.margin < margin_needed)
-    throw std::invalid_argument(
-        fmt::format("image.margin is {} but must be at least {:.3g}, or the side lobes to be measured lie outside the image", image.margin, margin_needed));
+    throw std::invalid_argument(fmt::format(
+        "image.margin is {} but must be at least {:.3g}, or the side lobes to be measured lie outside the image",
+        image.margin, margin_needed));
   Eigen::AlignedBox2d box;  // in range and along
   for (const auto& place : targetPlaces(settings)) box.extend(Eigen::Vector2d(place.dot(grid.range_axis), place.x()));
   const Eigen::Vector2d first = box.min().array() - image.margin, size = box.sizes().array() + 2 * image.margin;
   grid.origin = first.x() * grid.range_axis + first.y() * grid.along_axis;
   grid.rows = pixelCount("range_step", size.x(), grid.range_step);
-  grid.columns =
-      static_cast<int>(fastLength(static_cast<std::size_t>(pixelCount("along_step", size.y(), grid.along_step))));  // autofocus transforms along them
+  grid.columns = static_cast<int>(fastLength(static_cast<std::size_t>(
+      pixelCount("along_step", size.y(), grid.along_step))));  // autofocus transforms along them
   return grid;
 }
 
@@ -111,10 +121,12 @@ Scene focusScene(const FocusSettings& settings, const ImageGrid& grid) {
 
 double memoryNeeded(const FocusSettings& settings, const ImageGrid& grid, std::size_t lines) {
   const SonarDescription& sonar = settings.sonar;
-  const double samples = (2 * (sonar.far_range - sonar.near_range) / sonar.sound_speed + sonar.pulse_length) * sonar.sampleRate();
+  const double samples =
+      (2 * (sonar.far_range - sonar.near_range) / sonar.sound_speed + sonar.pulse_length) * sonar.sampleRate();
   const double area = grid.rows * grid.range_step * grid.columns * grid.along_step;
   const double raw_and_compressed = 2 * sizeof(std::complex<float>) * samples * static_cast<double>(lines);
-  const double scatterers = sizeof(Scatterer) * settings.speckle.density * area * 2;  // a growing list takes up to twice its length
+  const double scatterers =
+      sizeof(Scatterer) * settings.speckle.density * area * 2;  // a growing list takes up to twice its length
   const double image_and_reading = 4 * sizeof(std::complex<float>) * static_cast<double>(grid.pixels());
   return raw_and_compressed + scatterers + image_and_reading;
 }

@@ -9,11 +9,14 @@ namespace sas_motion::imaging {
 
 void checkGrid(const ImageGrid& grid) {
   constexpr double kTolerance = 1e-9;
-  const bool orthonormal = std::abs(grid.range_axis.squaredNorm() - 1) < kTolerance && std::abs(grid.along_axis.squaredNorm() - 1) < kTolerance &&
+  const bool orthonormal = std::abs(grid.range_axis.squaredNorm() - 1) < kTolerance &&
+                           std::abs(grid.along_axis.squaredNorm() - 1) < kTolerance &&
                            std::abs(grid.range_axis.dot(grid.along_axis)) < kTolerance;
   if (!orthonormal) throw std::invalid_argument("ImageGrid: the axes must be unit vectors at right angles");
-  if (!(grid.range_step > 0) || !(grid.along_step > 0)) throw std::invalid_argument("ImageGrid: the steps must be above 0");
-  if (grid.rows < 1 || grid.columns < 1) throw std::invalid_argument("ImageGrid: there must be at least one row and one column");
+  if (!(grid.range_step > 0) || !(grid.along_step > 0))
+    throw std::invalid_argument("ImageGrid: the steps must be above 0");
+  if (grid.rows < 1 || grid.columns < 1)
+    throw std::invalid_argument("ImageGrid: there must be at least one row and one column");
 }
 
 double relativeError(const Image& image, const Image& reference) {

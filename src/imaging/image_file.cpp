@@ -12,9 +12,11 @@
 namespace sas_motion::imaging {
 namespace {
 
-/// Version 1.0 of the format: magic, version, length of the text that follows, and the text, padded so that the data begin at a multiple of 64 bytes.
+/// Version 1.0 of the format: magic, version, length of the text that follows, and the text, padded so that the data
+/// begin at a multiple of 64 bytes.
 std::string npyHeader(const ImageGrid& grid) {
-  std::string text = fmt::format("{{'descr': '<c8', 'fortran_order': False, 'shape': ({}, {}), }}", grid.rows, grid.columns);
+  std::string text =
+      fmt::format("{{'descr': '<c8', 'fortran_order': False, 'shape': ({}, {}), }}", grid.rows, grid.columns);
   constexpr std::size_t kPrefix = 10;
   text.resize((kPrefix + text.size()) / 64 * 64 + 63 - kPrefix, ' ');
   text += '\n';
@@ -22,7 +24,9 @@ std::string npyHeader(const ImageGrid& grid) {
   return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(length & 0xFF) + static_cast<char>(length >> 8) + text;
 }
 
-std::string vectorText(const Eigen::Vector3d& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z()); }
+std::string vectorText(const Eigen::Vector3d& v) {
+  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
+}
 
 }  // namespace
 
@@ -31,15 +35,17 @@ void writeImage(const std::string& stem, const Image& image) {
   AtomicFile file(name);
   std::ofstream stream(file.temporary(), std::ios::binary);
   stream << npyHeader(image.grid);
-  stream.write(reinterpret_cast<const char*>(image.pixels.data()), static_cast<std::streamsize>(image.pixels.size() * sizeof(image.pixels[0])));
+  stream.write(reinterpret_cast<const char*>(image.pixels.data()),
+               static_cast<std::streamsize>(image.pixels.size() * sizeof(image.pixels[0])));
   stream.close();
   if (!stream) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", name));
   file.commit();
   const ImageGrid& grid = image.grid;
   writeFile(stem + ".json",
-            fmt::format(
-                "{{\"origin\": {}, \"range_axis\": {}, \"along_axis\": {}, \"range_step\": {:.17g}, \"along_step\": {:.17g}, \"rows\": {}, \"columns\": {}}}\n",
-                vectorText(grid.origin), vectorText(grid.range_axis), vectorText(grid.along_axis), grid.range_step, grid.along_step, grid.rows, grid.columns));
+            fmt::format("{{\"origin\": {}, \"range_axis\": {}, \"along_axis\": {}, \"range_step\": {:.17g}, "
+                        "\"along_step\": {:.17g}, \"rows\": {}, \"columns\": {}}}\n",
+                        vectorText(grid.origin), vectorText(grid.range_axis), vectorText(grid.along_axis),
+                        grid.range_step, grid.along_step, grid.rows, grid.columns));
 }
 
 }  // namespace sas_motion::imaging

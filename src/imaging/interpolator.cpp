@@ -22,7 +22,8 @@ double Interpolator::kernel(double x) { return kaiserSinc(x, kTaps, kBeta); }
 
 Interpolator::Interpolator() : table_(kPhases + 1) {
   for (int phase = 0; phase <= kPhases; ++phase)
-    for (int tap = 0; tap < kTaps; ++tap) table_[phase][tap] = kernel(static_cast<double>(phase) / kPhases + kBefore - tap);
+    for (int tap = 0; tap < kTaps; ++tap)
+      table_[phase][tap] = kernel(static_cast<double>(phase) / kPhases + kBefore - tap);
 }
 
 Interpolator::Taps Interpolator::taps(double fraction) const {
@@ -30,7 +31,8 @@ Interpolator::Taps Interpolator::taps(double fraction) const {
   const int below = std::min(static_cast<int>(phase), kPhases - 1);
   const double weight = phase - below;
   Taps result;
-  for (int tap = 0; tap < kTaps; ++tap) result[tap] = table_[below][tap] + weight * (table_[below + 1][tap] - table_[below][tap]);
+  for (int tap = 0; tap < kTaps; ++tap)
+    result[tap] = table_[below][tap] + weight * (table_[below + 1][tap] - table_[below][tap]);
   return result;
 }
 
@@ -44,12 +46,14 @@ std::complex<double> Interpolator::at(const std::complex<float>* line, int sampl
   return sum;
 }
 
-void Interpolator::deposit(std::vector<std::complex<double>>& line, double position, std::complex<double> amplitude) const {
+void Interpolator::deposit(std::vector<std::complex<double>>& line, double position,
+                           std::complex<double> amplitude) const {
   const auto samples = static_cast<int>(line.size());
   if (!(position > -kTaps && position < samples + kTaps)) return;
   const int base = static_cast<int>(std::floor(position));
   const Taps weights = taps(position - base);
-  for (int tap = std::max(0, kBefore - base); tap < std::min(kTaps, samples + kBefore - base); ++tap) line[base - kBefore + tap] += weights[tap] * amplitude;
+  for (int tap = std::max(0, kBefore - base); tap < std::min(kTaps, samples + kBefore - base); ++tap)
+    line[base - kBefore + tap] += weights[tap] * amplitude;
 }
 
 }  // namespace sas_motion::imaging

@@ -21,8 +21,8 @@ constexpr int kEnvelopeRounds = 3, kPhaseRounds = 4;
 /// One pair of pings while its displacement is sought: each step moves the second pose and its echoes on.
 class Displacement {
  public:
-  Displacement(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar, const BeamCoherence& beam, const PingPose& first,
-               const PingPose& second, const MicronavigationOptions& options)
+  Displacement(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar, const BeamCoherence& beam,
+               const PingPose& first, const PingPose& second, const MicronavigationOptions& options)
       : lines_(lines),
         line_(ping * static_cast<std::size_t>(sonar.receivers)),
         sonar_(sonar),
@@ -50,7 +50,8 @@ class Displacement {
       SpeckleParameters start = fit_.parameters;
       start.head<4>().setZero();
       fit_ = fitSpeckle(aligned_, pair_, sonar_, beam_, start);
-      if (!fit_.parameters.allFinite() || fit_.parameters(kBetweenPings) < options_.min_coherence) return MicronavigationVerdict::Incoherent;
+      if (!fit_.parameters.allFinite() || fit_.parameters(kBetweenPings) < options_.min_coherence)
+        return MicronavigationVerdict::Incoherent;
       move(fit_.parameters.head<3>(), fit_.parameters(kTurn));
       const Eigen::Vector3d sight = pair_.sight(middleRange(), 0);
       const Eigen::Vector3d envelope = envelopeDisplacement(aligned_, pair_, lag_);
@@ -103,22 +104,27 @@ class Displacement {
   Eigen::Matrix2d acrossCovariance() const {
     const Eigen::Vector3d sight = pair_.sight(middleRange(), 0);
     Eigen::Matrix<double, 2, 3> jacobian;  // by kAcross, kDown, kTurn
-    jacobian << Eigen::Matrix2d::Identity(), -0.5 * pair_.displacement(middleRange()).x() * Eigen::Vector2d(sight.dot(pair_.across), sight.dot(pair_.down));
+    jacobian << Eigen::Matrix2d::Identity(),
+        -0.5 * pair_.displacement(middleRange()).x() * Eigen::Vector2d(sight.dot(pair_.across), sight.dot(pair_.down));
     return jacobian * fit_.covariance.block<3, 3>(kAcross, kAcross) * jacobian.transpose();
   }
 
   double middleRange() const { return 0.5 * (sonar_.near_range + sonar_.far_range); }
   void realign() { aligned_ = align(lines_, line_, sonar_, pair_); }
 
-  bool settled() const { return (fit_.parameters.head<4>().array().abs() < 0.1 * fit_.covariance.diagonal().head<4>().array().sqrt()).all(); }
+  bool settled() const {
+    return (fit_.parameters.head<4>().array().abs() < 0.1 * fit_.covariance.diagonal().head<4>().array().sqrt()).all();
+  }
 
   /// Moves the second pose by this on the track's axes [m], and turns its fore end towards the sight [rad].
   void move(const Eigen::Vector3d& step, double turn) {
     PingPose second = pair_.poses[1];
-    const Eigen::Vector3d lever_body = (sonar_.transmitter_body + sonar_.receiver_array_body) / 2, lever = second.C_local_body * lever_body;
+    const Eigen::Vector3d lever_body = (sonar_.transmitter_body + sonar_.receiver_array_body) / 2,
+                          lever = second.C_local_body * lever_body;
     const Eigen::Vector3d axis = pair_.forward.cross(pair_.sight(middleRange(), 0));
     second.C_local_body = Eigen::AngleAxisd(turn, axis) * second.C_local_body;
-    second.position += step.x() * pair_.forward + step.y() * pair_.across + step.z() * pair_.down + lever - second.C_local_body * lever_body;
+    second.position += step.x() * pair_.forward + step.y() * pair_.across + step.z() * pair_.down + lever -
+                       second.C_local_body * lever_body;
     pair_ = PingPair(sonar_, pair_.poses[0], second, options_);
     realign();
   }
@@ -137,12 +143,14 @@ class Displacement {
 
 bool finite(const EchoLines& lines, std::size_t first_line, std::size_t count) {
   const auto samples = static_cast<std::size_t>(lines.samples);
-  return std::all_of(lines.line(first_line), lines.line(first_line) + count * samples,
-                     [](const std::complex<float>& value) { return std::isfinite(value.real()) && std::isfinite(value.imag()); });
+  return std::all_of(
+      lines.line(first_line), lines.line(first_line) + count * samples,
+      [](const std::complex<float>& value) { return std::isfinite(value.real()) && std::isfinite(value.imag()); });
 }
 
-Micronavigation measure(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar, const BeamCoherence& beam, const PingPose& first,
-                        const PingPose& second, const MicronavigationOptions& options) {
+Micronavigation measure(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar,
+                        const BeamCoherence& beam, const PingPose& first, const PingPose& second,
+                        const MicronavigationOptions& options) {
   const auto receivers = static_cast<std::size_t>(sonar.receivers);
   Micronavigation result;
   const auto refused = [&](MicronavigationVerdict verdict) {
@@ -158,12 +166,15 @@ Micronavigation measure(const EchoLines& lines, std::size_t ping, const SonarDes
   return refused(displacement.ambiguous(result) ? MicronavigationVerdict::Ambiguous : MicronavigationVerdict::Valid);
 }
 
-void check(const EchoLines& lines, const SonarDescription& sonar, const MicronavigationOptions& options, std::size_t pings) {
-  if (sonar.receivers < 2) throw std::invalid_argument("micronavigate: displaced phase centres take at least two receivers");
+void check(const EchoLines& lines, const SonarDescription& sonar, const MicronavigationOptions& options,
+           std::size_t pings) {
+  if (sonar.receivers < 2)
+    throw std::invalid_argument("micronavigate: displaced phase centres take at least two receivers");
   if (lines.data.size() < pings * static_cast<std::size_t>(sonar.receivers) * static_cast<std::size_t>(lines.samples))
     throw std::invalid_argument("micronavigate: there are fewer lines than poses times receivers");
   const double least = kCoherentSamples * lines.sound_speed / lines.sample_rate / 2 + 3 * options.search;
-  if (sonar.far_range - sonar.near_range < least) throw std::invalid_argument(fmt::format("micronavigate: takes a swath of at least {:.3g} m", least));
+  if (sonar.far_range - sonar.near_range < least)
+    throw std::invalid_argument(fmt::format("micronavigate: takes a swath of at least {:.3g} m", least));
 }
 
 }  // namespace
@@ -179,18 +190,19 @@ const char* describe(MicronavigationVerdict verdict) {
   return "";
 }
 
-Micronavigation micronavigate(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar, const PingPose& first, const PingPose& second,
-                              const MicronavigationOptions& options) {
+Micronavigation micronavigate(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar,
+                              const PingPose& first, const PingPose& second, const MicronavigationOptions& options) {
   check(lines, sonar, options, ping + 2);
   return measure(lines, ping, sonar, BeamCoherence(sonar), first, second, options);
 }
 
-std::vector<Micronavigation> micronavigate(const EchoLines& lines, const SonarDescription& sonar, const std::vector<PingPose>& poses,
-                                           const MicronavigationOptions& options) {
+std::vector<Micronavigation> micronavigate(const EchoLines& lines, const SonarDescription& sonar,
+                                           const std::vector<PingPose>& poses, const MicronavigationOptions& options) {
   check(lines, sonar, options, poses.size());
   std::vector<Micronavigation> results(poses.empty() ? 0 : poses.size() - 1);
   const BeamCoherence beam(sonar);
-  forEachTask(results.size(), options.threads, [&](std::size_t i) { results[i] = measure(lines, i, sonar, beam, poses[i], poses[i + 1], options); });
+  forEachTask(results.size(), options.threads,
+              [&](std::size_t i) { results[i] = measure(lines, i, sonar, beam, poses[i], poses[i + 1], options); });
   return results;
 }
 

@@ -28,14 +28,15 @@ struct Deviation {
 };
 
 /// One line as it had sounded from the ideal track.
-void compensateLine(const EchoLines& lines, std::size_t i, const Deviation& deviation, double bandwidth, const Interpolator& interpolator,
-                    std::complex<float>* result) {
+void compensateLine(const EchoLines& lines, std::size_t i, const Deviation& deviation, double bandwidth,
+                    const Interpolator& interpolator, std::complex<float>* result) {
   const double smallest_shift = lines.sound_speed / (2 * bandwidth) / 4;
   for (int n = 0; n < lines.samples; ++n) {
     const double delay = lines.first_delay + n / lines.sample_rate, range = lines.sound_speed / 2 * delay;
     const double error = range > 0 ? deviation.slantError(range, delay) : 0;
     const double shift = std::abs(error) > smallest_shift ? 2 * error / lines.sound_speed * lines.sample_rate : 0;
-    const std::complex<double> echo = shift != 0 ? interpolator.at(lines.line(i), lines.samples, n + shift) : std::complex<double>(lines.line(i)[n]);
+    const std::complex<double> echo =
+        shift != 0 ? interpolator.at(lines.line(i), lines.samples, n + shift) : std::complex<double>(lines.line(i)[n]);
     result[n] = std::complex<float>(echo * std::polar(1.0, 4 * kPi * lines.carrier / lines.sound_speed * error));
   }
 }
@@ -56,13 +57,16 @@ StraightTrack fitTrack(const EchoLines& lines) {
   if (!(xx + yy > 0)) throw std::invalid_argument("fitTrack: the track has no length");
   const double angle = 0.5 * std::atan2(2 * xy, xx - yy);  // of the principal axis
   track.direction = {std::cos(angle), std::sin(angle), 0};
-  if (track.direction.dot(phaseCentre(lines.paths.back()) - phaseCentre(lines.paths.front())) < 0) track.direction = -track.direction;
+  if (track.direction.dot(phaseCentre(lines.paths.back()) - phaseCentre(lines.paths.front())) < 0)
+    track.direction = -track.direction;
   return track;
 }
 
-EchoLines compensateMotion(const EchoLines& lines, const StraightTrack& track, double bandwidth, const CompensationOptions& options) {
+EchoLines compensateMotion(const EchoLines& lines, const StraightTrack& track, double bandwidth,
+                           const CompensationOptions& options) {
   EchoLines compensated = lines;
-  const Eigen::Vector3d port = Eigen::Vector3d::UnitZ().cross(track.direction), look = options.starboard ? Eigen::Vector3d(-port) : port;
+  const Eigen::Vector3d port = Eigen::Vector3d::UnitZ().cross(track.direction),
+                        look = options.starboard ? Eigen::Vector3d(-port) : port;
   const Interpolator interpolator;
   forEachTask(lines.paths.size(), options.threads, [&](std::size_t i) {
     const Eigen::Vector3d way = phaseCentre(lines.paths[i]) - track.origin;

@@ -11,7 +11,8 @@ namespace sas_motion::imaging {
 std::size_t spectralGap(const Spectrum& spectrum) {
   const auto n = static_cast<double>(spectrum.size());
   std::complex<double> centre = 0;
-  for (std::size_t k = 0; k < spectrum.size(); ++k) centre += std::norm(spectrum[k]) * std::polar(1.0, 2 * kPi * static_cast<double>(k) / n);
+  for (std::size_t k = 0; k < spectrum.size(); ++k)
+    centre += std::norm(spectrum[k]) * std::polar(1.0, 2 * kPi * static_cast<double>(k) / n);
   const double gap = n * (std::arg(centre) / (2 * kPi) + 1.5);
   return static_cast<std::size_t>(std::lround(gap)) % spectrum.size();
 }
@@ -33,7 +34,9 @@ std::complex<double> valueAt(const Spectrum& spectrum, std::size_t gap, double p
   const double cycle = 2 * kPi / static_cast<double>(n);
   std::complex<double> sum = 0;
   for (std::size_t k = 0; k < n; ++k)
-    sum += spectrum[(gap + k) % n] * std::polar(1.0 / static_cast<double>(n), cycle * (static_cast<double>(k) - static_cast<double>(n / 2)) * position);
+    sum +=
+        spectrum[(gap + k) % n] * std::polar(1.0 / static_cast<double>(n),
+                                             cycle * (static_cast<double>(k) - static_cast<double>(n / 2)) * position);
   return sum;
 }
 

@@ -16,14 +16,18 @@ using Rows = std::vector<Spectrum>;
 
 /// Rows whose brightest pixel is in the middle, the brightest ones first, and only that share of them.
 Rows centredRows(const Rows& rows, double share) {
-  const auto dimmer = [](const std::complex<double>& a, const std::complex<double>& b) { return std::norm(a) < std::norm(b); };
+  const auto dimmer = [](const std::complex<double>& a, const std::complex<double>& b) {
+    return std::norm(a) < std::norm(b);
+  };
   Rows centred = rows;
   for (auto& row : centred) {
     const auto peak = std::max_element(row.begin(), row.end(), dimmer) - row.begin();
     const auto n = static_cast<std::ptrdiff_t>(row.size());
     std::rotate(row.begin(), row.begin() + (peak - n / 2 + n) % n, row.end());
   }
-  std::sort(centred.begin(), centred.end(), [](const Spectrum& a, const Spectrum& b) { return std::norm(a[a.size() / 2]) > std::norm(b[b.size() / 2]); });
+  std::sort(centred.begin(), centred.end(), [](const Spectrum& a, const Spectrum& b) {
+    return std::norm(a[a.size() / 2]) > std::norm(b[b.size() / 2]);
+  });
   centred.resize(std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(rows.size()))));
   return centred;
 }
@@ -86,7 +90,8 @@ std::vector<double> commonPhase(const Rows& spectra, std::size_t gap, const std:
   std::vector<double> phase(n, 0.0);
   for (std::size_t i = 1; i < bins.size(); ++i) {
     std::complex<double> product = 0;
-    for (const auto& spectrum : spectra) product += std::conj(spectrum[(gap + bins[i - 1]) % n]) * spectrum[(gap + bins[i]) % n];
+    for (const auto& spectrum : spectra)
+      product += std::conj(spectrum[(gap + bins[i - 1]) % n]) * spectrum[(gap + bins[i]) % n];
     phase[bins[i]] = phase[bins[i - 1]] + std::arg(product);
   }
   detrend(phase, bins);
@@ -139,7 +144,8 @@ Autofocus phaseGradientAutofocus(const Image& image, const AutofocusOptions& opt
     ++result.iterations;
     result.converged = rootMeanSquare(phase, bins) < options.tolerance;
   }
-  for (std::size_t i = 0; i < result.image.pixels.size(); ++i) result.image.pixels[i] = std::complex<float>(rows[i / columns][i % columns]);
+  for (std::size_t i = 0; i < result.image.pixels.size(); ++i)
+    result.image.pixels[i] = std::complex<float>(rows[i / columns][i % columns]);
   return result;
 }
 

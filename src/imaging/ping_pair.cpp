@@ -15,9 +15,14 @@ Eigen::Vector3d phaseCentre(const EchoPath& path) { return (path.transmitter + p
 
 }  // namespace
 
-PingPair::PingPair(const SonarDescription& sonar, const PingPose& first, const PingPose& second, const MicronavigationOptions& options)
-    : poses{first, second}, bottom(options.bottom), paths(echoPaths(sonar, {first, second})), sound_speed(sonar.sound_speed) {
-  C_local_body = Eigen::Quaterniond(first.C_local_body).slerp(0.5, Eigen::Quaterniond(second.C_local_body)).toRotationMatrix();
+PingPair::PingPair(const SonarDescription& sonar, const PingPose& first, const PingPose& second,
+                   const MicronavigationOptions& options)
+    : poses{first, second},
+      bottom(options.bottom),
+      paths(echoPaths(sonar, {first, second})),
+      sound_speed(sonar.sound_speed) {
+  C_local_body =
+      Eigen::Quaterniond(first.C_local_body).slerp(0.5, Eigen::Quaterniond(second.C_local_body)).toRotationMatrix();
   forward = C_local_body.col(0);
   down = (forward.z() * forward - Eigen::Vector3d::UnitZ()).normalized();
   across = options.starboard ? Eigen::Vector3d(down.cross(forward)) : Eigen::Vector3d(forward.cross(down));
@@ -28,7 +33,8 @@ PingPair::PingPair(const SonarDescription& sonar, const PingPose& first, const P
 Eigen::Vector3d PingPair::sight(double range, double along, double sine) const {
   const double cosine = std::sqrt(1 - sine * sine);
   const double height = origin.z() + (along + range * sine) * forward.z() - bottom;
-  const double depression = std::clamp(height / (-down.z() * range * cosine), 0.0, 1.0);  // its sine, in the plane across the track
+  const double depression =
+      std::clamp(height / (-down.z() * range * cosine), 0.0, 1.0);  // its sine, in the plane across the track
   return sine * forward + cosine * (std::sqrt(1 - depression * depression) * across + depression * down);
 }
 
@@ -41,8 +47,8 @@ Eigen::Vector3d PingPair::displacement(double range) const {
   const std::size_t receivers = paths.size() / 2;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < receivers; ++i)
-    sum +=
-        phaseCentre(paths[receivers + i]) - phaseCentre(paths[i]) + (paths[receivers + i].receiver_velocity - paths[i].receiver_velocity) * range / sound_speed;
+    sum += phaseCentre(paths[receivers + i]) - phaseCentre(paths[i]) +
+           (paths[receivers + i].receiver_velocity - paths[i].receiver_velocity) * range / sound_speed;
   sum /= static_cast<double>(receivers);
   return {forward.dot(sum), across.dot(sum), down.dot(sum)};
 }
@@ -53,11 +59,13 @@ double PingPair::halfPath(std::size_t channel, double range, double sine) const 
 }
 
 PingPair::PathShape PingPair::shape(std::size_t channel, double range, double sine) const {
-  const double aft = halfPath(channel, range, -sine), middle = halfPath(channel, range, 0), fore = halfPath(channel, range, sine);
+  const double aft = halfPath(channel, range, -sine), middle = halfPath(channel, range, 0),
+               fore = halfPath(channel, range, sine);
   return {(fore - aft) / (2 * sine), (0.5 * (fore + aft) - middle) / (sine * sine)};
 }
 
-AlignedLines align(const EchoLines& lines, std::size_t first_line, const SonarDescription& sonar, const PingPair& pair) {
+AlignedLines align(const EchoLines& lines, std::size_t first_line, const SonarDescription& sonar,
+                   const PingPair& pair) {
   AlignedLines aligned;
   aligned.range_step = lines.sound_speed / lines.sample_rate / 2;
   aligned.first_range = sonar.near_range;
@@ -69,7 +77,8 @@ AlignedLines align(const EchoLines& lines, std::size_t first_line, const SonarDe
       const double length = 2 * pair.halfPath(channel, aligned.range(n), 0);
       const double turns = lines.carrier / lines.sound_speed * length;
       aligned.channels[channel][static_cast<std::size_t>(n)] =
-          interpolator.at(lines.line(first_line + channel), lines.samples, lines.position(length)) * std::polar(1.0, 2 * kPi * (turns - std::floor(turns)));
+          interpolator.at(lines.line(first_line + channel), lines.samples, lines.position(length)) *
+          std::polar(1.0, 2 * kPi * (turns - std::floor(turns)));
     }
   return aligned;
 }

@@ -11,7 +11,8 @@ namespace sas_motion::imaging {
 
 using Complex = std::complex<double>;
 
-/// Where two pings are believed to be, and the straight track between them to which their echoes are moved. Ranges are from the track [m].
+/// Where two pings are believed to be, and the straight track between them to which their echoes are moved. Ranges are
+/// from the track [m].
 struct PingPair {
   std::array<PingPose, 2> poses;
   Eigen::Matrix3d C_local_body;                   ///< half-way between the two attitudes
@@ -20,15 +21,20 @@ struct PingPair {
   std::vector<EchoPath> paths;                    ///< of the first ping's receivers, then of the second's
   double sound_speed = 0;                         ///< [m/s]
 
-  PingPair(const SonarDescription& sonar, const PingPose& first, const PingPose& second, const MicronavigationOptions& options);
+  PingPair(const SonarDescription& sonar, const PingPose& first, const PingPose& second,
+           const MicronavigationOptions& options);
 
   /// From the track to the bottom at broadside, or at this sine of the angle forward of it; unit vector, local.
   Eigen::Vector3d sight(double range, double along, double sine = 0) const;
   /// Sine of the angle forward of broadside where a channel's beam has its middle.
-  double beamSine(std::size_t channel, const Eigen::Vector3d& sight) const { return -paths[channel].forward.dot(sight); }
-  /// Half a channel's path by the bottom at this range from its place on the track, and at this sine of the angle forward of broadside [m].
+  double beamSine(std::size_t channel, const Eigen::Vector3d& sight) const {
+    return -paths[channel].forward.dot(sight);
+  }
+  /// Half a channel's path by the bottom at this range from its place on the track, and at this sine of the angle
+  /// forward of broadside [m].
   double halfPath(std::size_t channel, double range, double sine) const;
-  /// How half a channel's path differs from the one from its place on the track, which is 0: slope and half the second derivative over the sine [m].
+  /// How half a channel's path differs from the one from its place on the track, which is 0: slope and half the second
+  /// derivative over the sine [m].
   struct PathShape {
     double slope = 0, curvature = 0;
   };

@@ -30,13 +30,15 @@ Pixel brightest(const Image& image, const Eigen::Vector3d& truth, double radius)
 }
 
 double energy(const Spectrum& spectrum) {
-  return std::accumulate(spectrum.begin(), spectrum.end(), 0.0, [](double sum, const std::complex<double>& value) { return sum + std::norm(value); });
+  return std::accumulate(spectrum.begin(), spectrum.end(), 0.0,
+                         [](double sum, const std::complex<double>& value) { return sum + std::norm(value); });
 }
 
 /// A square piece of the image and cuts through it between pixels.
 class Chip {
  public:
-  Chip(const Image& image, Pixel first, int size) : size_(size), rows_(size, Spectrum(size)), columns_(size, Spectrum(size)) {
+  Chip(const Image& image, Pixel first, int size)
+      : size_(size), rows_(size, Spectrum(size)), columns_(size, Spectrum(size)) {
     Fourier fourier(static_cast<std::size_t>(size));
     for (int r = 0; r < size; ++r)
       for (int c = 0; c < size; ++c) rows_[r][c] = columns_[c][r] = image.at(first.row + r, first.column + c);
@@ -52,7 +54,8 @@ class Chip {
 
  private:
   Spectrum cut(const std::vector<Spectrum>& lines, double position) const {
-    const auto strongest = std::max_element(lines.begin(), lines.end(), [](const Spectrum& a, const Spectrum& b) { return energy(a) < energy(b); });
+    const auto strongest = std::max_element(lines.begin(), lines.end(),
+                                            [](const Spectrum& a, const Spectrum& b) { return energy(a) < energy(b); });
     const std::size_t gap = spectralGap(*strongest);
     Spectrum result(size_);
     for (int i = 0; i < size_; ++i) result[i] = valueAt(lines[i], gap, position);
@@ -68,8 +71,10 @@ PointTargetMeasures measurePointTarget(const Image& image, const Eigen::Vector3d
   PointTargetMeasures measures;
   const ImageGrid& grid = image.grid;
   const int size = 2 * options.half_size;
-  const Pixel peak = brightest(image, truth, options.search_radius), first{peak.row - options.half_size, peak.column - options.half_size};
-  measures.complete = first.row >= 0 && first.column >= 0 && first.row + size <= grid.rows && first.column + size <= grid.columns;
+  const Pixel peak = brightest(image, truth, options.search_radius),
+              first{peak.row - options.half_size, peak.column - options.half_size};
+  measures.complete =
+      first.row >= 0 && first.column >= 0 && first.row + size <= grid.rows && first.column + size <= grid.columns;
   if (!measures.complete) return measures;
   const Chip chip(image, first, size);
   double row = options.half_size, column = options.half_size;
@@ -82,7 +87,8 @@ PointTargetMeasures measurePointTarget(const Image& image, const Eigen::Vector3d
   measures.peak_position = grid.point(first.row + row, first.column + column);
   const Eigen::Vector3d error = measures.peak_position - truth;
   measures.peak_error = std::hypot(error.dot(grid.range_axis), error.dot(grid.along_axis));
-  measures.peak_loss = 10 * std::log10(options.reference_power / std::max(measures.range.peak_power, measures.along.peak_power));
+  measures.peak_loss =
+      10 * std::log10(options.reference_power / std::max(measures.range.peak_power, measures.along.peak_power));
   return measures;
 }
 
@@ -94,7 +100,9 @@ double wholeImageIslr(const Image& image, const PointTargetMeasures& target) {
       const double power = std::norm(std::complex<double>(image.at(row, column)));
       const Eigen::Vector3d way = grid.point(row, column) - target.peak_position;
       all += power;
-      if (std::abs(way.dot(grid.range_axis)) <= target.range.main_lobe / 2 && std::abs(way.dot(grid.along_axis)) <= target.along.main_lobe / 2) inside += power;
+      if (std::abs(way.dot(grid.range_axis)) <= target.range.main_lobe / 2 &&
+          std::abs(way.dot(grid.along_axis)) <= target.along.main_lobe / 2)
+        inside += power;
     }
   return 10 * std::log10((all - inside) / inside);
 }

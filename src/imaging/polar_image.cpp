@@ -42,8 +42,13 @@ struct Place {
 
 }  // namespace
 
-PolarImage::PolarImage(const ImageGrid& grid, const Eigen::Vector3d& centre, double range_step, double cosine_step, int margin)
-    : centre_(centre), range_axis_(grid.range_axis), along_axis_(grid.along_axis), range_step_(range_step), cosine_step_(cosine_step) {
+PolarImage::PolarImage(const ImageGrid& grid, const Eigen::Vector3d& centre, double range_step, double cosine_step,
+                       int margin)
+    : centre_(centre),
+      range_axis_(grid.range_axis),
+      along_axis_(grid.along_axis),
+      range_step_(range_step),
+      cosine_step_(cosine_step) {
   const Eigen::Vector3d normal = along_axis_.cross(range_axis_);
   height_ = (centre - grid.origin).dot(normal);
   foot_ = centre - height_ * normal;
@@ -73,7 +78,8 @@ PolarPoint PolarImage::seen(const Eigen::Vector3d& point) const {
 }
 
 bool PolarImage::place(const PolarPoint& polar, Eigen::Vector3d& point) const {
-  const double along = polar.range * polar.cosine, across_squared = polar.range * polar.range - along * along - height_ * height_;
+  const double along = polar.range * polar.cosine,
+               across_squared = polar.range * polar.range - along * along - height_ * height_;
   if (!(across_squared >= 0)) return false;
   point = foot_ + std::sqrt(across_squared) * range_axis_ + along * along_axis_;
   return true;
@@ -85,7 +91,8 @@ std::complex<float> PolarImage::between(const PolarPoint& polar) const {
   float real = 0, imaginary = 0;
   for (int k = 0; k < kTaps; ++k) {
     const auto* const samples = reinterpret_cast<const float*>(
-        &values_[static_cast<std::size_t>(cosine.first + k) * static_cast<std::size_t>(ranges_) + static_cast<std::size_t>(range.first)]);
+        &values_[static_cast<std::size_t>(cosine.first + k) * static_cast<std::size_t>(ranges_) +
+                 static_cast<std::size_t>(range.first)]);
     float re = 0, im = 0;
     for (std::size_t i = 0; i < kTaps; ++i) {
       re += (*range.taps)[i] * samples[2 * i];

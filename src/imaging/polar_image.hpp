@@ -25,9 +25,12 @@ class PolarImage {
 
   int ranges() const { return ranges_; }
   int cosines() const { return cosines_; }
-  PolarPoint sample(int range, int cosine) const { return {first_.range + range * range_step_, first_.cosine + cosine * cosine_step_}; }
+  PolarPoint sample(int range, int cosine) const {
+    return {first_.range + range * range_step_, first_.cosine + cosine * cosine_step_};
+  }
   std::complex<float>& at(int range, int cosine) {
-    return values_[static_cast<std::size_t>(cosine) * static_cast<std::size_t>(ranges_) + static_cast<std::size_t>(range)];
+    return values_[static_cast<std::size_t>(cosine) * static_cast<std::size_t>(ranges_) +
+                   static_cast<std::size_t>(range)];
   }
 
   PolarPoint seen(const Eigen::Vector3d& point) const;

@@ -63,7 +63,8 @@ EchoLines compressRange(const EchoLines& raw, const SonarDescription& sonar, con
     fourier.forward(line);
     for (std::size_t k = 0; k < length; ++k) line[k] *= filter[k];
     fourier.inverse(line);
-    for (int n = 0; n < compressed.samples; ++n) compressed.line(i)[n] = std::complex<float>(line[static_cast<std::size_t>(n)]);
+    for (int n = 0; n < compressed.samples; ++n)
+      compressed.line(i)[n] = std::complex<float>(line[static_cast<std::size_t>(n)]);
   });
   compressed.left_out = left_out;
   return compressed;

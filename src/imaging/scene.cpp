@@ -11,8 +11,8 @@ namespace sas_motion::imaging {
 namespace {
 
 /// Speckle on the rectangle corner + [0,1] a + [0,1] b, with this power an area. Points inside blocks are left out.
-void addRectangle(Scene& scene, const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double density, double power,
-                  Random& random) {
+void addRectangle(Scene& scene, const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                  double density, double power, Random& random) {
   const double area = std::sqrt(std::max(0.0, a.squaredNorm() * b.squaredNorm() - std::pow(a.dot(b), 2)));
   const auto count = static_cast<std::size_t>(std::lround(area * density));
   const double sigma = std::sqrt(power / density / 2);
@@ -24,7 +24,8 @@ void addRectangle(Scene& scene, const Eigen::Vector3d& corner, const Eigen::Vect
       return place.z() < block.upper.z() && (place.head<2>().array() > block.lower.head<2>().array()).all() &&
              (place.head<2>().array() < block.upper.head<2>().array()).all();
     };
-    if (std::none_of(scene.blocks.begin(), scene.blocks.end(), covers)) scene.scatterers.push_back({place, {real, imaginary}});
+    if (std::none_of(scene.blocks.begin(), scene.blocks.end(), covers))
+      scene.scatterers.push_back({place, {real, imaginary}});
   }
 }
 

@@ -32,7 +32,13 @@ std::vector<Block> blocks(const AlignedLines& lines, const PingPair& pair, doubl
     const double range = lines.range(begin + 0.5 * (kBlock - 1));
     const Eigen::Vector3d sight = pair.sight(range, 0);
     Eigen::MatrixXcd samples(channels, kBlock);
-    Block block{{}, Eigen::VectorXd(channels), Eigen::VectorXd(channels), Eigen::VectorXd(channels), sight.dot(pair.across), sight.dot(pair.down), 0};
+    Block block{{},
+                Eigen::VectorXd(channels),
+                Eigen::VectorXd(channels),
+                Eigen::VectorXd(channels),
+                sight.dot(pair.across),
+                sight.dot(pair.down),
+                0};
     for (Eigen::Index a = 0; a < channels; ++a) {
       const auto channel = static_cast<std::size_t>(a);
       const PingPair::PathShape shape = pair.shape(channel, range, spread);
@@ -52,19 +58,23 @@ class SpeckleModel {
  public:
   SpeckleModel(const BeamCoherence& beam, double wavelength) : beam_(beam), wave_number_(2 * kPi / wavelength) {}
 
-  /// Of the channels, with power 1. An echo of the second ping from further along the sight than believed is early, and the believed path turns it too far.
+  /// Of the channels, with power 1. An echo of the second ping from further along the sight than believed is early, and
+  /// the believed path turns it too far.
   Covariance covariance(const Block& block, const SpeckleParameters& p) const {
     const Eigen::Index channels = block.along.size(), receivers = channels / 2;
     Eigen::VectorXd along = block.along, sine = block.sine, slant = Eigen::VectorXd::Zero(channels);
     along.tail(receivers).array() += p(kAlong);
-    sine.tail(receivers).array() -= p(kTurn);  // the beam turns with the array, so that a ping alone tells nothing of its turn
-    slant.tail(receivers) = (block.along.tail(receivers).array() - block.arm) * p(kTurn) + block.across * p(kAcross) + block.down * p(kDown);
+    sine.tail(receivers).array() -=
+        p(kTurn);  // the beam turns with the array, so that a ping alone tells nothing of its turn
+    slant.tail(receivers) = (block.along.tail(receivers).array() - block.arm) * p(kTurn) + block.across * p(kAcross) +
+                            block.down * p(kDown);
     Covariance S = Covariance::Identity(channels, channels);
     for (Eigen::Index a = 0; a < channels; ++a)
       for (Eigen::Index b = 0; b < a; ++b) {
         const double level = (a < receivers) == (b < receivers) ? p(kWithinPing) : p(kBetweenPings);
         const double apart = along(a) - along(b), squint = 0.5 * (sine(a) + sine(b));
-        const Complex coherence(beam_.at(apart), -2 * wave_number_ * (block.curvature(a) - block.curvature(b)) * beam_.squaredSine(apart));
+        const Complex coherence(
+            beam_.at(apart), -2 * wave_number_ * (block.curvature(a) - block.curvature(b)) * beam_.squaredSine(apart));
         S(a, b) = level * coherence * std::polar(1.0, 2 * wave_number_ * (slant(a) - slant(b) + apart * squint));
         S(b, a) = std::conj(S(a, b));
       }
@@ -87,8 +97,8 @@ class SpeckleModel {
 double traceOfProduct(const Covariance& a, const Covariance& b) { return a.cwiseProduct(b.transpose()).sum().real(); }
 
 /// Adds a block's score and Fisher information, its power taken as unknown.
-void accumulate(const SpeckleModel& model, const Block& block, double cells, const SpeckleParameters& p, SpeckleParameters& score,
-                Eigen::MatrixXd& information) {
+void accumulate(const SpeckleModel& model, const Block& block, double cells, const SpeckleParameters& p,
+                SpeckleParameters& score, Eigen::MatrixXd& information) {
   const Eigen::Index channels = block.along.size();
   const Covariance S = model.covariance(block, p);
   const Covariance inverse = S.llt().solve(Covariance::Identity(channels, channels));
@@ -104,14 +114,15 @@ void accumulate(const SpeckleModel& model, const Block& block, double cells, con
   for (int i = 0; i < kSpeckleParameters; ++i) {
     score(i) += cells * traceOfProduct(W[static_cast<std::size_t>(i)], excess);
     for (int j = 0; j < kSpeckleParameters; ++j)
-      information(i, j) +=
-          cells * (traceOfProduct(W[static_cast<std::size_t>(i)], W[static_cast<std::size_t>(j)]) - trace(i) * trace(j) / static_cast<double>(channels));
+      information(i, j) += cells * (traceOfProduct(W[static_cast<std::size_t>(i)], W[static_cast<std::size_t>(j)]) -
+                                    trace(i) * trace(j) / static_cast<double>(channels));
   }
 }
 
 }  // namespace
 
-BeamCoherence::BeamCoherence(const SonarDescription& sonar) : step_(3 * sonar.element / kTableSteps), coherence_(kTableSteps + 1), squares_(kTableSteps + 1) {
+BeamCoherence::BeamCoherence(const SonarDescription& sonar)
+    : step_(3 * sonar.element / kTableSteps), coherence_(kTableSteps + 1), squares_(kTableSteps + 1) {
   constexpr int kAngles = 400, kFrequencies = 9;
   const double edge = std::min(0.99, 2 * sonar.wavelength() / sonar.element);  // the second null
   double power = 0, squares = 0;
@@ -122,7 +133,8 @@ BeamCoherence::BeamCoherence(const SonarDescription& sonar) : step_(3 * sonar.el
     power += weight;
     squares += weight * sine * sine;
     for (int frequency = 0; frequency < kFrequencies; ++frequency) {
-      const double waves = (sonar.carrier + sonar.bandwidth * ((frequency + 0.5) / kFrequencies - 0.5)) / sonar.sound_speed;
+      const double waves =
+          (sonar.carrier + sonar.bandwidth * ((frequency + 0.5) / kFrequencies - 0.5)) / sonar.sound_speed;
       for (std::size_t i = 0; i < coherence_.size(); ++i) {
         const double share = weight * std::cos(4 * kPi * waves * sine * step_ * static_cast<double>(i)) / kFrequencies;
         coherence_[i] += share;
@@ -143,8 +155,8 @@ double BeamCoherence::read(const std::vector<double>& table, double distance) co
   return (1 - share) * table[below] + share * table[below + 1];
 }
 
-SpeckleEstimate fitSpeckle(const AlignedLines& lines, const PingPair& pair, const SonarDescription& sonar, const BeamCoherence& beam,
-                           const SpeckleParameters& start) {
+SpeckleEstimate fitSpeckle(const AlignedLines& lines, const PingPair& pair, const SonarDescription& sonar,
+                           const BeamCoherence& beam, const SpeckleParameters& start) {
   const SpeckleModel model(beam, sonar.wavelength());
   const std::vector<Block> stretches = blocks(lines, pair, beam.spread());
   const double cells = kBlock / sonar.oversampling;
@@ -161,7 +173,8 @@ SpeckleEstimate fitSpeckle(const AlignedLines& lines, const PingPair& pair, cons
     p += factor.solve(score);
     p(kWithinPing) = std::clamp(p(kWithinPing), 0.0, kMostCoherence);
     p(kBetweenPings) = std::clamp(p(kBetweenPings), 0.0, kMostCoherence * p(kWithinPing));
-    estimate.converged = ((p - before).array().abs() < kTolerance * estimate.covariance.diagonal().array().sqrt()).all();
+    estimate.converged =
+        ((p - before).array().abs() < kTolerance * estimate.covariance.diagonal().array().sqrt()).all();
   }
   return estimate;
 }

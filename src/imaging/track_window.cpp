@@ -25,7 +25,8 @@ Stretch stretchBetween(const std::vector<TimedPose>& poses, std::size_t first, s
     spread += way * way.transpose() / count;
   }
   const double half_trace = spread.trace() / 2;
-  const double across = half_trace - std::sqrt(std::max(0.0, half_trace * half_trace - spread.determinant()));  // the lesser eigenvalue
+  const double across =
+      half_trace - std::sqrt(std::max(0.0, half_trace * half_trace - spread.determinant()));  // the lesser eigenvalue
   const double length = (poses[last].position - poses[first].position).head<2>().norm();
   return {poses[first].stamp, length, std::sqrt(std::max(0.0, across)) / length};
 }
@@ -40,7 +41,8 @@ std::optional<Stamp> straightestWindow(const Trajectory& trajectory, double dura
   for (std::size_t first = 0; first < poses.size(); ++first) {
     while (last < poses.size() && poses[last].stamp < poses[first].stamp + span) {
       ++last;
-      if (last < poses.size() && secondsBetween(poses[last - 1].stamp, poses[last].stamp) > longest_gap) whole_since = last;
+      if (last < poses.size() && secondsBetween(poses[last - 1].stamp, poses[last].stamp) > longest_gap)
+        whole_since = last;
     }
     if (last == poses.size()) break;
     if (first >= whole_since) stretches.push_back(stretchBetween(poses, first, last));
@@ -63,7 +65,8 @@ double meanSpeed(const Trajectory& trajectory) {
 
 PingPose ApertureFrame::fromMap(const PingPose& pose_map) const {
   const Eigen::Matrix3d C_track_map = Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return {C_track_map * (pose_map.position - origin_map), C_track_map * pose_map.C_local_body, C_track_map * pose_map.velocity};
+  return {C_track_map * (pose_map.position - origin_map), C_track_map * pose_map.C_local_body,
+          C_track_map * pose_map.velocity};
 }
 
 ApertureFrame apertureFrame(const std::vector<PingPose>& poses_map, double altitude) {
@@ -79,7 +82,8 @@ ApertureFrame apertureFrame(const std::vector<PingPose>& poses_map, double altit
   return frame;
 }
 
-std::vector<PingPose> aperturePoses(const std::vector<PingPose>& poses_map, const ApertureFrame& frame, double altitude) {
+std::vector<PingPose> aperturePoses(const std::vector<PingPose>& poses_map, const ApertureFrame& frame,
+                                    double altitude) {
   std::vector<PingPose> poses;
   double height = 0;
   for (const auto& pose : poses_map) {

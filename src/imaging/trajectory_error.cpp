@@ -23,24 +23,26 @@ double trackSpeed(const std::vector<double>& times, const std::vector<PingPose>&
   return (poses.back().position - poses.front().position).head<2>().norm() / (times.back() - times.front());
 }
 
-/// Where mean and trend move the image, for small ones: the mean moves it as a whole, a trend in the line of sight turns the track and so moves it along, by
-/// the slope times range over speed.
+/// Where mean and trend move the image, for small ones: the mean moves it as a whole, a trend in the line of sight
+/// turns the track and so moves it along, by the slope times range over speed.
 Eigen::Vector3d imageShift(const Trend& along, const Trend& line_of_sight, double speed, const Eigen::Vector3d& way) {
   const double range = way.norm(), ground = way.head<2>().norm();
   const double outwards = -line_of_sight.mean * range / ground;
   return {along.mean + line_of_sight.slope * range / speed, std::copysign(1.0, way.y()) * outwards, 0};
 }
 
-/// The place in the plane of the bottom whose estimated paths fit the true ones by the target best, by Gauss and Newton from the first guess.
-Eigen::Vector3d bestFit(const std::vector<EchoPath>& truth, const std::vector<EchoPath>& estimate, const Eigen::Vector3d& target, const Eigen::Vector3d& guess,
-                        double sound_speed) {
+/// The place in the plane of the bottom whose estimated paths fit the true ones by the target best, by Gauss and Newton
+/// from the first guess.
+Eigen::Vector3d bestFit(const std::vector<EchoPath>& truth, const std::vector<EchoPath>& estimate,
+                        const Eigen::Vector3d& target, const Eigen::Vector3d& guess, double sound_speed) {
   Eigen::Vector3d place = guess;
   for (int i = 0; i < kMostSteps; ++i) {
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     Eigen::Vector2d slope = Eigen::Vector2d::Zero();
     for (std::size_t line = 0; line < truth.size(); ++line) {
       const EchoPath& path = estimate[line];
-      const Eigen::Vector2d gradient = ((place - path.transmitter).normalized() + (place - path.receiver).normalized()).head<2>();
+      const Eigen::Vector2d gradient =
+          ((place - path.transmitter).normalized() + (place - path.receiver).normalized()).head<2>();
       information += gradient * gradient.transpose();
       slope += gradient * (pathLength(truth[line], target, sound_speed) - pathLength(path, place, sound_speed));
     }
@@ -53,8 +55,9 @@ Eigen::Vector3d bestFit(const std::vector<EchoPath>& truth, const std::vector<Ec
 }
 
 /// Over all receivers of all pings.
-Trend pathError(const std::vector<double>& times, const std::vector<EchoPath>& truth, const std::vector<EchoPath>& estimate, const Eigen::Vector3d& target,
-                const Eigen::Vector3d& image, double sound_speed) {
+Trend pathError(const std::vector<double>& times, const std::vector<EchoPath>& truth,
+                const std::vector<EchoPath>& estimate, const Eigen::Vector3d& target, const Eigen::Vector3d& image,
+                double sound_speed) {
   const std::size_t receivers = truth.size() / times.size();
   std::vector<double> line_times, errors;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -78,12 +81,14 @@ Trend fitTrend(const std::vector<double>& times, const std::vector<double>& valu
   }
   trend.slope = tt > 0 ? ty / tt : 0;
   double squares = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) squares += std::pow(values[i] - trend.mean - trend.slope * (times[i] - middle), 2);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    squares += std::pow(values[i] - trend.mean - trend.slope * (times[i] - middle), 2);
   trend.rms = std::sqrt(squares / count);
   return trend;
 }
 
-ApertureTrajectoryError apertureTrajectoryError(const SonarDescription& sonar, const std::vector<double>& times, const std::vector<PingPose>& truth,
+ApertureTrajectoryError apertureTrajectoryError(const SonarDescription& sonar, const std::vector<double>& times,
+                                                const std::vector<PingPose>& truth,
                                                 const std::vector<PingPose>& estimate, const Eigen::Vector3d& target) {
   const Eigen::Vector3d way = wayTo(truth, target);
   std::vector<double> along, slant;

@@ -8,8 +8,9 @@
 
 namespace sas_motion::imaging {
 
-/// Lines on a finer grid, for linear interpolation. Linear interpolation damps a wave of w radians a fine sample by w^2 / 12 on average; the taps
-/// raise it by as much beforehand, so that only the ripple about the average is left: below -60 dB of the line's energy, a tenth of what it is without.
+/// Lines on a finer grid, for linear interpolation. Linear interpolation damps a wave of w radians a fine sample by w^2
+/// / 12 on average; the taps raise it by as much beforehand, so that only the ripple about the average is left: below
+/// -60 dB of the line's energy, a tenth of what it is without.
 class Upsampling {
  public:
   static constexpr int kFactor = 9;  ///< fine samples a sample

@@ -30,7 +30,8 @@ void flushToDisk(const std::string& path, const std::string& name) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_(fmt::format("{}.{}.part", path_, ::getpid())) {
+AtomicFile::AtomicFile(std::string path)
+    : path_(std::move(path)), temporary_(fmt::format("{}.{}.part", path_, ::getpid())) {
   std::FILE* probe = std::fopen(temporary_.c_str(), "wb");
   if (!probe) fail(path_, "created");
   std::fclose(probe);

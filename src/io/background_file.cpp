@@ -32,7 +32,8 @@ void require(int error) {
 
 }  // namespace
 
-BackgroundFile::BackgroundFile(const std::string& path) : descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+BackgroundFile::BackgroundFile(const std::string& path)
+    : descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) require(errno);
   thread_ = std::thread([this] { work(); });
 }

@@ -16,7 +16,8 @@ constexpr int kMantissaBits = 53;
 /// value * scale rounded to an integer, half to even; value >= 0, and the result fits.
 std::uint64_t roundedProduct(double value, std::uint64_t scale) {
   int exponent = 0;
-  const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(value, &exponent), kMantissaBits));  // value = mantissa 2^-shift
+  const auto mantissa =
+      static_cast<std::uint64_t>(std::ldexp(std::frexp(value, &exponent), kMantissaBits));  // value = mantissa 2^-shift
   const int shift = kMantissaBits - exponent;
   const Wide product = Wide{mantissa} * scale;
   if (shift <= 0) return static_cast<std::uint64_t>(product << static_cast<unsigned>(-shift));

@@ -9,7 +9,9 @@
 
 namespace sas_motion {
 
-double chiSquaredQuantile(double probability, double degrees) { return boost::math::quantile(boost::math::chi_squared(degrees), probability); }
+double chiSquaredQuantile(double probability, double degrees) {
+  return boost::math::quantile(boost::math::chi_squared(degrees), probability);
+}
 
 Band averageChiSquaredBand(double degrees, double count, double probability) {
   const double tail = 0.5 * (1 - probability);
@@ -18,7 +20,8 @@ Band averageChiSquaredBand(double degrees, double count, double probability) {
 
 double rootMeanSquare(const std::vector<double>& values) {
   if (values.empty()) return 0;
-  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / static_cast<double>(values.size()));
+  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                   static_cast<double>(values.size()));
 }
 
 double mean(const std::vector<double>& values) {

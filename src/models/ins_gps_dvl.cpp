@@ -52,7 +52,7 @@ Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_
   const double s = std::sin(state.latitude), c = std::cos(state.latitude), t = s / c, w = earth::kRotationRate;
   const double vE = state.velocity_nav.x(), vN = state.velocity_nav.y(), vU = state.velocity_nav.z();
   const double fE = force_nav.x(), fN = force_nav.y(), fU = force_nav.z();
-  Matrix<9> F;                                                            // vE vN vU, longitude latitude height, phiE phiN phiU
+  Matrix<9> F;  // vE vN vU, longitude latitude height, phiE phiN phiU
   F << (vN * t - vU) / N, 2 * w * s + vE * t / N, -(2 * w * c + vE / N),  //
       0, 2 * w * (c * vN + s * vU) + vE * vN / (N * c * c), (vE * vU - vE * vN * t) / (N * N), 0, -fU, fN,
       //
@@ -60,7 +60,8 @@ Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_
       0, -(2 * w * c * vE + vE * vE / (N * c * c)), vN * vU / (M * M) + vE * vE * t / (N * N), fU, 0, -fE,
       //
       2 * (w * c + vE / N), 2 * vN / M, 0,  //
-      0, -2 * w * s * vE - earth::gravityByLatitude(state.latitude), -(vN * vN / (M * M) + vE * vE / (N * N)) + earth::kGravityPerHeight, -fN, fE, 0,
+      0, -2 * w * s * vE - earth::gravityByLatitude(state.latitude),
+      -(vN * vN / (M * M) + vE * vE / (N * N)) + earth::kGravityPerHeight, -fN, fE, 0,
       //
       1 / (N * c), 0, 0, 0, vE * t / (N * c), -vE / (N * N * c), 0, 0, 0,
       //
@@ -77,7 +78,9 @@ Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_
 }
 
 ErrorModel::ErrorModel(const Parameters& parameters, const NavigationState& start)
-    : parameters_(parameters), dvl_sigma_(Vector<3>::Constant(parameters.dvl_markov)), dvl_time_(Vector<3>::Constant(parameters.dvl_time)) {
+    : parameters_(parameters),
+      dvl_sigma_(Vector<3>::Constant(parameters.dvl_markov)),
+      dvl_time_(Vector<3>::Constant(parameters.dvl_time)) {
   if (const auto& drift = parameters.dvl_drift) {
     dvl_sigma_ << drift->angle, drift->offset, kLeastDvlError;
     dvl_time_ << drift->angle_time, drift->offset_time, drift->offset_time;
@@ -93,7 +96,8 @@ ErrorModel::ErrorModel(const Parameters& parameters, const NavigationState& star
   density_.segment<3>(kGyroMarkov).setConstant(markovDensity(p.gyro_markov / kDrift, p.gyro_time));
   for (int axis = 0; axis < 3; ++axis) density_(kGpsPosition + axis) = markovDensity(p.gps_markov(axis), p.gps_time);
   for (int axis = 0; axis < 3; ++axis) density_(kDvlVelocity + axis) = markovDensity(dvl_sigma_(axis), dvl_time_(axis));
-  density_.segment<3>(kDvlPosition).setConstant(p.dvl_white.cwiseAbs2().mean() / p.dvl_rate);  // white readings, each held for 1 / rate
+  density_.segment<3>(kDvlPosition)
+      .setConstant(p.dvl_white.cwiseAbs2().mean() / p.dvl_rate);  // white readings, each held for 1 / rate
 }
 
 ErrorMatrix ErrorModel::dynamics(const Motion& motion) const {
@@ -133,17 +137,20 @@ Gaussian<kStates> ErrorModel::start() const {
   const Parameters& p = parameters_;
   const Vector<3> ones = Vector<3>::Ones(), attitude(p.start_tilt, p.start_tilt, p.start_heading);
   Errors sigma;
-  sigma << p.start_velocity * ones, p.start_position, attitude / kMilliradian, p.gyro_constant / kDrift * ones, p.gyro_markov / kDrift * ones,
-      p.accelerometer_constant / kBias * ones, p.gps_markov, dvl_sigma_, p.start_position;
+  sigma << p.start_velocity * ones, p.start_position, attitude / kMilliradian, p.gyro_constant / kDrift * ones,
+      p.gyro_markov / kDrift * ones, p.accelerometer_constant / kBias * ones, p.gps_markov, dvl_sigma_,
+      p.start_position;
   Gaussian<kStates> belief;
   belief.covariance = sigma.cwiseAbs2().asDiagonal();
   // Dead reckoning starts from the position of the INS.
-  belief.covariance.block<3, 3>(kPosition, kDvlPosition) = belief.covariance.block<3, 3>(kDvlPosition, kPosition) = p.start_position.cwiseAbs2().asDiagonal();
+  belief.covariance.block<3, 3>(kPosition, kDvlPosition) = belief.covariance.block<3, 3>(kDvlPosition, kPosition) =
+      p.start_position.cwiseAbs2().asDiagonal();
   belief.covariance.diagonal().segment<3>(kDvlPosition).array() += 1e-6;  // [m^2], so that it can be factorised
   return belief;
 }
 
-LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const NavigationState& fix, const Errors& mean) const {
+LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const NavigationState& fix,
+                                              const Errors& mean) const {
   LinearMeasurement<kStates, 3> z;
   const Vector<3> lever = ins.q_nav_body * parameters_.gps_lever_body;
   Vector<3> difference = positionOf(ins) - positionOf(fix);
@@ -157,12 +164,13 @@ LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const 
   return z;
 }
 
-Vector<3> ErrorModel::velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const {
+Vector<3> ErrorModel::velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body,
+                                    const Vector<3>& velocity_dvl_body) const {
   return velocity_dvl_body - leverVelocity(ins, rate_body, parameters_.dvl_lever_body);
 }
 
-LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body,
-                                              const Errors& mean) const {
+LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const Vector<3>& rate_body,
+                                              const Vector<3>& velocity_body, const Errors& mean) const {
   LinearMeasurement<kStates, 3> z;
   const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
   z.H.setZero();
@@ -196,7 +204,8 @@ LinearMeasurement<kStates, 1> ErrorModel::depth(const NavigationState& ins, doub
   return z;
 }
 
-LinearMeasurement<kStates, 2> ErrorModel::dpc(const NavigationState& ins, const Vector<3>& rate_body, const ArrayVelocity& array, const Errors& mean) const {
+LinearMeasurement<kStates, 2> ErrorModel::dpc(const NavigationState& ins, const Vector<3>& rate_body,
+                                              const ArrayVelocity& array, const Errors& mean) const {
   LinearMeasurement<kStates, 2> z;
   const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
   Matrix<2, 3> axes;
@@ -205,11 +214,14 @@ LinearMeasurement<kStates, 2> ErrorModel::dpc(const NavigationState& ins, const 
   z.H.block<2, 3>(0, kVelocity) = axes * C_body_nav;
   z.H.block<2, 3>(0, kAttitude) = -kMilliradian * axes * C_body_nav * skew(ins.velocity_nav);
   z.R = array.variance.asDiagonal();
-  z.innovation = axes * (C_body_nav * ins.velocity_nav + leverVelocity(ins, rate_body, parameters_.dpc_lever_body)) - array.velocity - z.H * mean;
+  z.innovation = axes * (C_body_nav * ins.velocity_nav + leverVelocity(ins, rate_body, parameters_.dpc_lever_body)) -
+                 array.velocity - z.H * mean;
   return z;
 }
 
-Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment) { return (1 + scale) * (Matrix<3>::Identity() - skew(misalignment)); }
+Matrix<3> dvlDistortion(double scale, const Vector<3>& misalignment) {
+  return (1 + scale) * (Matrix<3>::Identity() - skew(misalignment));
+}
 
 NavigationState corrected(const NavigationState& ins, const Errors& errors, const Errors& unit) {
   NavigationState state = ins;

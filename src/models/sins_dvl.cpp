@@ -82,14 +82,18 @@ Matrix<4, 3> rightTurn(const Eigen::Quaterniond& q) {
   return U;
 }
 
-NavigationState moved(const NavigationState& state, const Preintegration& felt, const Vector<3>& eps, const Vector<3>& nabla) {
+NavigationState moved(const NavigationState& state, const Preintegration& felt, const Vector<3>& eps,
+                      const Vector<3>& nabla) {
   const double T = felt.duration(), s = std::sin(state.latitude), c = std::cos(state.latitude);
   const Matrix<3> C = state.q_nav_body.toRotationMatrix();
   Vector<3> velocity = C * felt.velocity(eps, nabla), way = C * felt.way(eps, nabla);
   const auto [M, N] = earth::radiiBySine(s, state.height);
   const double per_T = 1 / T, per_M = 1 / M, per_N = 1 / N, per_parallel = per_N / c;
-  const Vector<3> gravity(0, 0, -earth::gravityBySine(s, state.height)), turning(0, earth::kRotationRate * c, earth::kRotationRate * s);
-  const auto overEarth = [&](const Vector<3>& v) { return Vector<3>(-v.y() * per_M, v.x() * per_N, v.x() * s * per_parallel); };
+  const Vector<3> gravity(0, 0, -earth::gravityBySine(s, state.height)),
+      turning(0, earth::kRotationRate * c, earth::kRotationRate * s);
+  const auto overEarth = [&](const Vector<3>& v) {
+    return Vector<3>(-v.y() * per_M, v.x() * per_N, v.x() * s * per_parallel);
+  };
   const auto pull = [&](const Vector<3>& v) -> Vector<3> { return gravity - (2 * turning + overEarth(v)).cross(v); };
 
   const Vector<3> v = state.velocity_nav;
@@ -124,18 +128,20 @@ Matrix<N> Motion<N>::noiseRoot(const Vector<9>& besides) const {
   Matrix<N> Q = Matrix<N>::Zero();
   const Vector<3> position_variance = Vector<3>::Constant(T * squared(kRoughPosition)) + besides.segment<3>(3);
   Q.diagonal().template segment<3>(kPosition) = northFirst(position_variance).cwiseProduct(perMetre(ins_).cwiseAbs2());
-  Q.diagonal().template segment<3>(kVelocity) = Vector<3>::Constant(T * squared(p.velocity_random_walk)) + besides.head<3>();
+  Q.diagonal().template segment<3>(kVelocity) =
+      Vector<3>::Constant(T * squared(p.velocity_random_walk)) + besides.head<3>();
   const Matrix<4, 3> U = rightTurn(ins_moved_.q_nav_body);
-  Q.template block<4, 4>(kQuaternion, kQuaternion) =
-      T * (0.25 * squared(p.angle_random_walk) * U * U.transpose() + squared(kRoughQuaternion) * Matrix<4>::Identity()) +
-      ofRotation(ins_moved_.q_nav_body, besides.tail<3>());
+  Q.template block<4, 4>(kQuaternion, kQuaternion) = T * (0.25 * squared(p.angle_random_walk) * U * U.transpose() +
+                                                          squared(kRoughQuaternion) * Matrix<4>::Identity()) +
+                                                     ofRotation(ins_moved_.q_nav_body, besides.tail<3>());
   Q.diagonal().template segment<3>(kGyro).setConstant(T * squared(kRoughGyro));
   auto turns = Q.template block<4, 4>(kQuaternion, kQuaternion);
   turns.diagonal().array() += kLeastShare * turns.trace();
   Q(kDvlOffset, kDvlOffset) = squared(p.dvl_offset) * (1 - squared(offset_decay_));  // (0.5)
   Q(kDvlScale, kDvlScale) = T * squared(kRoughScale);
   Q(kDvlAngle, kDvlAngle) = squared(p.dvl_angle) * (1 - squared(angle_decay_));
-  if constexpr (N > kAccelerometer) Q.diagonal().template segment<3>(kAccelerometer).setConstant(T * squared(kRoughAccelerometer));
+  if constexpr (N > kAccelerometer)
+    Q.diagonal().template segment<3>(kAccelerometer).setConstant(T * squared(kRoughAccelerometer));
   return choleskyLower<N>(Q).value_or(Matrix<N>::Zero());
 }
 
@@ -167,7 +173,9 @@ NavigationState View<N>::corrected(const Vector<N>& x) const {
 template <int N>
 Vector<3> View<N>::dvl(const Vector<N>& x, const Vector<3>& turning_body) const {
   const Vector<4> q = coefficients(ins_.q_nav_body) - x.template segment<4>(kQuaternion);
-  const Vector<3> v = quaternionFrom(q).normalized().conjugate() * Vector<3>(ins_.velocity_nav - x.template segment<3>(kVelocity)) + turning_body;
+  const Vector<3> v =
+      quaternionFrom(q).normalized().conjugate() * Vector<3>(ins_.velocity_nav - x.template segment<3>(kVelocity)) +
+      turning_body;
   const double s = std::sin(x(kDvlAngle)), c = std::cos(x(kDvlAngle)), scale = 1 + x(kDvlScale);
   return {scale * (c * v.x() + s * v.y()), scale * (c * v.y() - s * v.x()) + x(kDvlOffset), scale * v.z()};
 }
@@ -209,9 +217,11 @@ Gaussian<N> startBelief(const Parameters& p, const NavigationState& ins) {
   P(kDvlOffset) = squared(p.dvl_offset);
   P(kDvlScale) = squared(p.dvl_scale);
   P(kDvlAngle) = squared(p.dvl_angle);
-  if constexpr (N > kAccelerometer) P.template segment<3>(kAccelerometer).setConstant(squared(p.accelerometer_constant));
+  if constexpr (N > kAccelerometer)
+    P.template segment<3>(kAccelerometer).setConstant(squared(p.accelerometer_constant));
   const Vector<3> sigma(p.start_tilt, p.start_tilt, p.start_heading);
-  belief.covariance.template block<4, 4>(kQuaternion, kQuaternion) =  // on the sphere of quaternions, and a little across it
+  belief.covariance.template block<4, 4>(kQuaternion,
+                                         kQuaternion) =  // on the sphere of quaternions, and a little across it
       ofRotation(ins.q_nav_body, sigma.cwiseAbs2()) + squared(kQuaternionRegulariser) * Matrix<4>::Identity();
   return belief;
 }
@@ -219,7 +229,8 @@ Gaussian<N> startBelief(const Parameters& p, const NavigationState& ins) {
 template <int N>
 Matrix<N> turnRoot(const NavigationState& ins, const Vector<3>& variance) {
   Matrix<N> root = Matrix<N>::Zero();
-  root.template block<4, 3>(kQuaternion, kQuaternion) = 0.5 * leftTurn(ins.q_nav_body) * variance.cwiseSqrt().asDiagonal();
+  root.template block<4, 3>(kQuaternion, kQuaternion) =
+      0.5 * leftTurn(ins.q_nav_body) * variance.cwiseSqrt().asDiagonal();
   return root;
 }
 

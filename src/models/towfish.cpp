@@ -11,7 +11,8 @@ namespace sas_motion::towfish {
 namespace {
 
 void requirePositive(const char* key, double value) {
-  if (!(value > 0) || !std::isfinite(value)) throw std::invalid_argument(fmt::format("model: {} is {} but must be positive and finite", key, value));
+  if (!(value > 0) || !std::isfinite(value))
+    throw std::invalid_argument(fmt::format("model: {} is {} but must be positive and finite", key, value));
 }
 
 /// The displacement through the water over a step, at the heading halfway through it.
@@ -25,8 +26,8 @@ struct Stride {
   double cosine, sine, length;
 };
 
-/// The current's Gauss-Markov process over a step of T: v' = decay v, position gains `reach` v, and the covariances that white noise of
-/// density q = 2 beta sigma^2 leaves in (position, current).
+/// The current's Gauss-Markov process over a step of T: v' = decay v, position gains `reach` v, and the covariances
+/// that white noise of density q = 2 beta sigma^2 leaves in (position, current).
 struct CurrentStep {
   CurrentStep(const MotionParameters& p, double T) {
     const double tau = p.current_time_constant, u = T / tau, variance = p.current_sigma * p.current_sigma;
@@ -130,7 +131,8 @@ Transition<kStates> Model::transition(const StateVector& x, const Input& input, 
   Q(kNorth, kCurrentNorth) = Q(kEast, kCurrentEast) = current.position_velocity;
   Q(kCurrentNorth, kCurrentNorth) = Q(kCurrentEast, kCurrentEast) = current.velocity_velocity;
   const double speed = x(kSpeed);
-  addRandomWalk(Q, kHeading, parameters_.heading_noise * parameters_.heading_noise, -speed * stride.sine, speed * stride.cosine, dt);
+  addRandomWalk(Q, kHeading, parameters_.heading_noise * parameters_.heading_noise, -speed * stride.sine,
+                speed * stride.cosine, dt);
   addRandomWalk(Q, kSpeed, parameters_.speed_noise * parameters_.speed_noise, stride.cosine, stride.sine, dt);
   for (int col = 0; col < kStates; ++col)
     for (int row = col + 1; row < kStates; ++row) Q(row, col) = Q(col, row);
@@ -171,6 +173,8 @@ LinearMeasurement<kStates, 1> Model::heading(const Measurement& z, const StateVe
   return scalar(z, kHeading, wrapAngle(z.value(0) - x(kHeading)));
 }
 
-LinearMeasurement<kStates, 1> Model::speed(const Measurement& z, const StateVector& x) const { return scalar(z, kSpeed, z.value(0) - x(kSpeed)); }
+LinearMeasurement<kStates, 1> Model::speed(const Measurement& z, const StateVector& x) const {
+  return scalar(z, kSpeed, z.value(0) - x(kSpeed));
+}
 
 }  // namespace sas_motion::towfish

@@ -16,7 +16,8 @@ constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 double arccos(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
 
-/// d acos(p_axis / r) / dp. On the axis itself it has no direction; a millionth of the range stands for the distance from it.
+/// d acos(p_axis / r) / dp. On the axis itself it has no direction; a millionth of the range stands for the distance
+/// from it.
 Matrix<1, 3> directionAngleGradient(const Vector<3>& p, int axis) {
   const double r = p.norm(), across = std::max(std::sqrt(std::max(0.0, r * r - p(axis) * p(axis))), 1e-6 * r);
   Vector<3> gradient = p * (p(axis) / (r * r));
@@ -69,8 +70,9 @@ Vector<3> transponderFromArrayBody(const Unknowns& x, const Ping& ping) {
 }  // namespace
 
 const std::array<std::string, kUnknowns>& unknownNames() {
-  static const std::array<std::string, kUnknowns> names{"mounting_x", "mounting_y",    "mounting_z",    "lever_x",       "lever_y",
-                                                        "lever_z",    "transponder_x", "transponder_y", "transponder_z", "range_scale"};
+  static const std::array<std::string, kUnknowns> names{"mounting_x",    "mounting_y", "mounting_z",    "lever_x",
+                                                        "lever_y",       "lever_z",    "transponder_x", "transponder_y",
+                                                        "transponder_z", "range_scale"};
   return names;
 }
 
@@ -82,15 +84,21 @@ const std::vector<std::string>& modeNames() {
 Mode modeFromName(const std::string& name) {
   const auto& names = modeNames();
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw std::invalid_argument("'" + name + "' is no mode; take direction_angles, direction_cosines, azimuth_elevation or azimuth");
+  if (found == names.end())
+    throw std::invalid_argument("'" + name +
+                                "' is no mode; take direction_angles, direction_cosines, azimuth_elevation or azimuth");
   return static_cast<Mode>(found - names.begin());
 }
 
 const std::string& modeName(Mode mode) { return modeNames()[static_cast<std::size_t>(mode)]; }
 
-Matrix<3> mountingRotation(const Vector<3>& angles) { return rotationOf({angles(kMountingX), angles(kMountingY), angles(kMountingZ)}); }
+Matrix<3> mountingRotation(const Vector<3>& angles) {
+  return rotationOf({angles(kMountingX), angles(kMountingY), angles(kMountingZ)});
+}
 
-Vector<3> transponderInArray(const Unknowns& x, const Ping& ping) { return mountingRotation(x.head<3>()).transpose() * transponderFromArrayBody(x, ping); }
+Vector<3> transponderInArray(const Unknowns& x, const Ping& ping) {
+  return mountingRotation(x.head<3>()).transpose() * transponderFromArrayBody(x, ping);
+}
 
 Vector<kChannels> Model::predict(const Unknowns& x, const Ping& ping) const {
   const Vector<3> p = transponderInArray(x, ping);
@@ -118,7 +126,9 @@ Matrix<kChannels, kUnknowns> Model::jacobian(const Unknowns& x, const Ping& ping
   Matrix<kChannels, 3> direction = Matrix<kChannels, 3>::Zero();
   direction.row(0) = (1 + x(kRangeScale)) * p.transpose() / p.norm();
   switch (mode_) {
-    case Mode::DirectionAngles: direction.bottomRows<2>() << directionAngleGradient(p, 0), directionAngleGradient(p, 1); break;
+    case Mode::DirectionAngles:
+      direction.bottomRows<2>() << directionAngleGradient(p, 0), directionAngleGradient(p, 1);
+      break;
     case Mode::DirectionCosines: direction.bottomRows<2>() << cosineGradient(p, 0), cosineGradient(p, 1); break;
     case Mode::AzimuthElevation: direction.bottomRows<2>() << azimuthGradient(p), elevationGradient(p); break;
     case Mode::Azimuth: direction.row(1) = azimuthGradient(p); break;
@@ -132,14 +142,16 @@ Reading Model::convert(const Reading& angles) const {
   if (mode_ == Mode::DirectionAngles) return angles;
   Reading result{{angles.value(0), kAbsent, kAbsent}, {angles.variance(0), kAbsent, kAbsent}};
   const double cx = std::cos(angles.value(1)), cy = std::cos(angles.value(2));
-  const double vx = std::pow(std::sin(angles.value(1)), 2) * angles.variance(1), vy = std::pow(std::sin(angles.value(2)), 2) * angles.variance(2);
+  const double vx = std::pow(std::sin(angles.value(1)), 2) * angles.variance(1),
+               vy = std::pow(std::sin(angles.value(2)), 2) * angles.variance(2);
   if (mode_ == Mode::DirectionCosines) {
     result.value.tail<2>() << cx, cy;
     result.variance.tail<2>() << vx, vy;
     return result;
   }
   const double square = cx * cx + cy * cy;
-  if (!angles.has(1) || !angles.has(2) || !(square > 0) || square > 1) return result;  // no direction has these two angles
+  if (!angles.has(1) || !angles.has(2) || !(square > 0) || square > 1)
+    return result;  // no direction has these two angles
   result.value(1) = std::atan2(cx, cy);
   result.variance(1) = (cy * cy * vx + cx * cx * vy) / (square * square);
   if (mode_ == Mode::Azimuth) return result;

@@ -13,13 +13,15 @@ namespace {
 
 const Geodetic& checked(const Geodetic& datum) {
   if (!(std::abs(datum.latitude_deg) <= 90) || !std::isfinite(datum.longitude_deg) || !std::isfinite(datum.altitude))
-    throw std::invalid_argument(fmt::format("the datum {}, {}, {} is no place on Earth", datum.latitude_deg, datum.longitude_deg, datum.altitude));
+    throw std::invalid_argument(fmt::format("the datum {}, {}, {} is no place on Earth", datum.latitude_deg,
+                                            datum.longitude_deg, datum.altitude));
   return datum;
 }
 
 }  // namespace
 
-LocalFrame::LocalFrame(const Geodetic& datum) : datum_(checked(datum)), plane_(datum.latitude_deg, datum.longitude_deg, datum.altitude) {}
+LocalFrame::LocalFrame(const Geodetic& datum)
+    : datum_(checked(datum)), plane_(datum.latitude_deg, datum.longitude_deg, datum.altitude) {}
 
 Vector<3> LocalFrame::position_enu(const Geodetic& point) const {
   Vector<3> position;
@@ -36,7 +38,8 @@ Matrix<3> LocalFrame::C_map_nav(const Geodetic& point) const {
 
 Geodetic LocalFrame::geodetic(const Vector<3>& position_enu) const {
   Geodetic point;
-  plane_.Reverse(position_enu(0), position_enu(1), position_enu(2), point.latitude_deg, point.longitude_deg, point.altitude);
+  plane_.Reverse(position_enu(0), position_enu(1), position_enu(2), point.latitude_deg, point.longitude_deg,
+                 point.altitude);
   return point;
 }
 

@@ -23,7 +23,8 @@ double checked(const char* name, double value) {
 
 Vector<3> displacement(const NavigationState& origin, const NavigationState& point) {
   const auto [M, N] = earth::radii(origin.latitude, origin.height);
-  return {N * std::cos(origin.latitude) * wrapAngle(point.longitude - origin.longitude), M * (point.latitude - origin.latitude), point.height - origin.height};
+  return {N * std::cos(origin.latitude) * wrapAngle(point.longitude - origin.longitude),
+          M * (point.latitude - origin.latitude), point.height - origin.height};
 }
 
 void displace(NavigationState& state, const Vector<3>& metres_nav) {
@@ -40,7 +41,8 @@ Vector<3> attitudeError(const Eigen::Quaterniond& computed, const Eigen::Quatern
   return -turn.vec() * (sine < 1e-9 ? 2 : 2 * std::atan2(sine, turn.w()) / sine);
 }
 
-Mechanisation::Mechanisation(const NavigationState& start, Stamp stamp, const Options& options) : options_(options), state_(start), stamp_(stamp) {
+Mechanisation::Mechanisation(const NavigationState& start, Stamp stamp, const Options& options)
+    : options_(options), state_(start), stamp_(stamp) {
   checked("period", options.period);
   checked("longest_gap", options.longest_gap);
   checked("max_rate", options.max_rate);
@@ -48,7 +50,8 @@ Mechanisation::Mechanisation(const NavigationState& start, Stamp stamp, const Op
 }
 
 ImuVerdict Mechanisation::judge(const ImuReading& reading) const {
-  const bool plausible = reading.rate_body.cwiseAbs().maxCoeff() <= options_.max_rate && reading.force_body.cwiseAbs().maxCoeff() <= options_.max_force;
+  const bool plausible = reading.rate_body.cwiseAbs().maxCoeff() <= options_.max_rate &&
+                         reading.force_body.cwiseAbs().maxCoeff() <= options_.max_force;
   if (!plausible || !reading.rate_body.allFinite() || !reading.force_body.allFinite()) return ImuVerdict::Implausible;
   if (!started_ && reading.stamp == stamp_) return ImuVerdict::Started;
   if (reading.stamp <= stamp_) return ImuVerdict::OutOfOrder;
@@ -73,8 +76,8 @@ void Mechanisation::advance(const ImuReading& reading, Stamp stamp) {
   const double scale = last_dt_ > 0 ? dt / last_dt_ : 0;
   const Vector<3> before_angle = scale * last_angle_, before_velocity = scale * last_velocity_;
   const Vector<3> rotation = angle + before_angle.cross(angle) / 12;
-  const Vector<3> velocity_start =
-      velocity + 0.5 * angle.cross(velocity) + angle.cross(angle.cross(velocity)) / 6 + (before_angle.cross(velocity) + before_velocity.cross(angle)) / 12;
+  const Vector<3> velocity_start = velocity + 0.5 * angle.cross(velocity) + angle.cross(angle.cross(velocity)) / 6 +
+                                   (before_angle.cross(velocity) + before_velocity.cross(angle)) / 12;
 
   const double L = state_.latitude, h = state_.height;
   const Vector<3> v = state_.velocity_nav;
@@ -102,7 +105,8 @@ void Mechanisation::advance(const ImuReading& reading, Stamp stamp) {
 
   force_nav_ = velocity_nav / dt;
   const Vector<3> last_rate = last_dt_ > 0 ? Vector<3>(last_angle_ / last_dt_) : reading.rate_body;
-  rate_body_ = reading.rate_body + dt / (dt + last_dt_) * (reading.rate_body - last_rate);  // from the middle of the interval to its end
+  rate_body_ = reading.rate_body +
+               dt / (dt + last_dt_) * (reading.rate_body - last_rate);  // from the middle of the interval to its end
   last_angle_ = angle;
   last_velocity_ = velocity;
   last_dt_ = dt;

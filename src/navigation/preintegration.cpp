@@ -25,6 +25,8 @@ void Preintegration::add(const Vector<3>& rate_body, const Vector<3>& force_body
   duration_ += dt;
 }
 
-Eigen::Quaterniond Preintegration::rotation(const Vector<3>& eps) const { return rotation_ * quaternionOf(-(rotation_by_drift_ * eps)); }
+Eigen::Quaterniond Preintegration::rotation(const Vector<3>& eps) const {
+  return rotation_ * quaternionOf(-(rotation_by_drift_ * eps));
+}
 
 }  // namespace sas_motion

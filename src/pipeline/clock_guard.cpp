@@ -27,7 +27,9 @@ ClockGuard::Answer ClockGuard::judge(const Measurement& z, Output& output) {
 
 /// One late sensor is no clock that was set: a position and a heading must be among those that agree.
 bool ClockGuard::enough() const {
-  const auto has = [this](Sensor sensor) { return std::any_of(held_.begin(), held_.end(), [&](const auto& z) { return z.sensor == sensor; }); };
+  const auto has = [this](Sensor sensor) {
+    return std::any_of(held_.begin(), held_.end(), [&](const auto& z) { return z.sensor == sensor; });
+  };
   return held_.size() >= kFewest && has(Sensor::Position) && has(Sensor::Heading);
 }
 
@@ -39,7 +41,8 @@ std::vector<Measurement> ClockGuard::release() {
 void ClockGuard::refuseHeld(Output& output) {
   for (const auto& z : held_) {
     const bool ahead = z.stamp > *newest_;
-    output.audits.push_back(refusal(z, ahead ? Verdict::Invalid : Verdict::Stale, ahead ? "stamp far ahead of the others" : "older than the lag"));
+    output.audits.push_back(refusal(z, ahead ? Verdict::Invalid : Verdict::Stale,
+                                    ahead ? "stamp far ahead of the others" : "older than the lag"));
   }
   held_.clear();
 }

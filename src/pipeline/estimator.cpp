@@ -29,11 +29,13 @@ std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& 
   std::unique_ptr<Estimator> estimator;
   withFilter(name, config, [&](const auto& filter) {
     using Filter = std::decay_t<decltype(filter)>;
-    estimator = std::make_unique<FilterTimeline<Filter>>([name](const Config& c) { return filterOf<Filter>(name, c); }, config);
+    estimator =
+        std::make_unique<FilterTimeline<Filter>>([name](const Config& c) { return filterOf<Filter>(name, c); }, config);
   });
   if (estimator) return estimator;
   if (name == "rts")
-    return std::make_unique<SmootherRecorder>(config, [options = config.rts](const SmoothingProblem& problem) { return smoothRts(problem, options); });
+    return std::make_unique<SmootherRecorder>(
+        config, [options = config.rts](const SmoothingProblem& problem) { return smoothRts(problem, options); });
   return nullptr;
 }
 
@@ -46,7 +48,8 @@ const char* invalidity(const Measurement& z, const Config& config) {
     if (!(z.variance(row) > 1e-30) || !(z.variance(row) < 1e12)) return "no usable covariance";
   if (z.sensor == Sensor::Position && z.value.norm() > 1e6) return "more than 1000 km from the datum";
   if (z.sensor == Sensor::Speed && std::abs(z.value(0)) > 100) return "faster than 100 m/s";
-  if (z.sensor == Sensor::TurnRate && std::abs(z.value(0)) > config.turn_rate_limit) return "turn rate beyond its limit";
+  if (z.sensor == Sensor::TurnRate && std::abs(z.value(0)) > config.turn_rate_limit)
+    return "turn rate beyond its limit";
   return nullptr;
 }
 

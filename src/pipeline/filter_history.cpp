@@ -38,7 +38,8 @@ void FilterHistory<Filter>::use(std::shared_ptr<const Filter> filter, double inp
 
 template <class Filter>
 std::optional<std::size_t> FilterHistory<Filter>::insert(const Measurement& z) {
-  const auto place = std::lower_bound(entries_.begin(), entries_.end(), z, [](const Entry& a, const Measurement& b) { return towfish::before(a.z, b); });
+  const auto place = std::lower_bound(entries_.begin(), entries_.end(), z,
+                                      [](const Entry& a, const Measurement& b) { return towfish::before(a.z, b); });
   if (place != entries_.end() && !towfish::before(z, place->z)) return std::nullopt;
   const auto index = place - entries_.begin();
   entries_.emplace(place, z, filter_);
@@ -59,7 +60,8 @@ void FilterHistory<Filter>::fuseFrom(std::size_t first) {
 
 template <class Filter>
 typename Filter::Belief FilterHistory<Filter>::predicted(const Moment& from, Stamp stamp) const {
-  return filter_->predict(from.belief, motion_(gaussian(from.belief).mean, from.input.at(stamp, input_hold_), from.stamp, stamp));
+  return filter_->predict(from.belief,
+                          motion_(gaussian(from.belief).mean, from.input.at(stamp, input_hold_), from.stamp, stamp));
 }
 
 template <class Filter>
@@ -101,7 +103,8 @@ void FilterHistory<Filter>::forget() {
 
 template <class Filter>
 Gaussian<kStates> FilterHistory<Filter>::at(Stamp stamp) const {
-  const auto after = std::upper_bound(entries_.begin(), entries_.end(), stamp, [](Stamp s, const Entry& entry) { return s < entry.z.stamp; });
+  const auto after = std::upper_bound(entries_.begin(), entries_.end(), stamp,
+                                      [](Stamp s, const Entry& entry) { return s < entry.z.stamp; });
   const Moment& from = before(static_cast<std::size_t>(after - entries_.begin()));
   return stamp == from.stamp ? gaussian(from.belief) : gaussian(predicted(from, stamp));
 }

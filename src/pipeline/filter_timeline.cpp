@@ -9,13 +9,16 @@ namespace sas_motion::towfish {
 namespace {
 
 Motion motionOf(const Model& model) {
-  return [model](const StateVector& mean, const Input& input, Stamp from, Stamp to) { return model.transition(mean, input, secondsBetween(from, to)); };
+  return [model](const StateVector& mean, const Input& input, Stamp from, Stamp to) {
+    return model.transition(mean, input, secondsBetween(from, to));
+  };
 }
 
 }  // namespace
 
 template <class Filter>
-FilterTimeline<Filter>::FilterTimeline(Make make, const Config& config) : FilterTimeline(std::move(make), config, motionOf(Model(config.model))) {}
+FilterTimeline<Filter>::FilterTimeline(Make make, const Config& config)
+    : FilterTimeline(std::move(make), config, motionOf(Model(config.model))) {}
 
 template <class Filter>
 FilterTimeline<Filter>::FilterTimeline(Make make, const Config& config, Motion motion)
@@ -86,11 +89,13 @@ template <class Filter>
 void FilterTimeline<Filter>::settle(Stamp until, Output& output) {
   const Stamp window = stampFromSeconds(start_window_);
   const auto& entries = history_.entries();
-  while (!history_.started() && !entries.empty() && entries.front().z.stamp + window <= until) {  // its whole window is here, and does not start
+  while (!history_.started() && !entries.empty() &&
+         entries.front().z.stamp + window <= until) {  // its whole window is here, and does not start
     giveUpFront(output);
     start();
   }
-  if (!history_.started() || (!start_settled_ && until < start_stamp_)) return;  // a late measurement can still change the start
+  if (!history_.started() || (!start_settled_ && until < start_stamp_))
+    return;  // a late measurement can still change the start
   std::size_t count = 0;
   for (; count < entries.size() && entries[count].z.stamp <= until; ++count) {
     const Entry& entry = entries[count];

@@ -10,7 +10,8 @@ namespace {
 
 void refuse(const std::vector<Reading>& readings, std::vector<Event>& events) {
   for (const auto& reading : readings)
-    if (const auto* aiding = std::get_if<Aiding>(&reading)) events.push_back(refusal(*aiding, Verdict::Stale, "before the start"));
+    if (const auto* aiding = std::get_if<Aiding>(&reading))
+      events.push_back(refusal(*aiding, Verdict::Stale, "before the start"));
 }
 
 }  // namespace
@@ -74,8 +75,10 @@ std::optional<Start> Alignment::startAt(const Aiding& fix) {
   start.parameters.start_tilt = attitude_->attitude->tilt_sigma;
   start.parameters.start_heading = attitude_->attitude->heading_sigma;
   if (!setVelocity(fix, start)) return std::nullopt;
-  displace(state, -(state.q_nav_body * parameters_.gps_lever_body) - secondsBetween(start.stamp, fix.stamp) * state.velocity_nav);
-  start.parameters.start_position = options_.fixes_aid ? Vector<3>::Constant(options_.position_sigma) : positionSigma(fix, start);
+  displace(state, -(state.q_nav_body * parameters_.gps_lever_body) -
+                      secondsBetween(start.stamp, fix.stamp) * state.velocity_nav);
+  start.parameters.start_position =
+      options_.fixes_aid ? Vector<3>::Constant(options_.position_sigma) : positionSigma(fix, start);
   return start;
 }
 
@@ -83,7 +86,8 @@ std::optional<Start> Alignment::startAt(const Aiding& fix) {
 Vector<3> Alignment::positionSigma(const Aiding& fix, const Start& start) const {
   const Parameters& p = start.parameters;
   const Vector<3> lever = (start.state.q_nav_body * parameters_.gps_lever_body).cwiseAbs();
-  const double across = lever.head<2>().norm(), horizontal = std::hypot(across * p.start_heading, lever.z() * p.start_tilt);
+  const double across = lever.head<2>().norm(),
+               horizontal = std::hypot(across * p.start_heading, lever.z() * p.start_tilt);
   const double moved = secondsBetween(start.stamp, fix.stamp) * p.start_velocity;
   const Vector<3> turned(horizontal, horizontal, across * p.start_tilt);
   const Vector<3> of_fix = fix.variance.value_or(parameters_.gps_white.cwiseAbs2());
@@ -94,13 +98,16 @@ bool Alignment::setVelocity(const Aiding& fix, Start& start) const {
   Vector<3>& velocity_nav = start.state.velocity_nav;
   double& sigma = start.parameters.start_velocity;
   if (ground_velocity_ && fresh(ground_velocity_->stamp, fix)) {
-    const Vector<3> turning_body = rateOverGround(start.state, attitude_->imu.rate_body).cross(parameters_.gps_lever_body);
+    const Vector<3> turning_body =
+        rateOverGround(start.state, attitude_->imu.rate_body).cross(parameters_.gps_lever_body);
     velocity_nav = ground_velocity_->velocity_nav - start.state.q_nav_body * turning_body;
     sigma = ground_velocity_->sigma;
   } else if (velocity_ && fresh(velocity_->stamp, fix)) {
     const ErrorModel model(parameters_, start.state);
-    velocity_nav = start.state.q_nav_body * model.velocityOfIns(start.state, attitude_->imu.rate_body, velocity_->velocity_body);
-    const double turned = velocity_nav.norm() * std::min(start.parameters.start_heading, 1.0);  // by an attitude that is wrong
+    velocity_nav =
+        start.state.q_nav_body * model.velocityOfIns(start.state, attitude_->imu.rate_body, velocity_->velocity_body);
+    const double turned =
+        velocity_nav.norm() * std::min(start.parameters.start_heading, 1.0);  // by an attitude that is wrong
     sigma = std::hypot(options_.velocity_sigma, turned);
   } else if (secondsBetween(*first_located_, fix.stamp) >= options_.velocity_wait) {
     velocity_nav.setZero();

@@ -15,7 +15,9 @@ class NavigatorEstimator final : public Estimator {
   NavigatorEstimator(const Filter& filter, const NavigatorOptions& options, const Config& config, Source source)
       : filter_(filter), options_(options), config_(config), source_(source) {}
 
-  void start(const NavigationState& state, Stamp stamp) override { navigator_.emplace(filter_, config_.parameters, state, stamp, options_); }
+  void start(const NavigationState& state, Stamp stamp) override {
+    navigator_.emplace(filter_, config_.parameters, state, stamp, options_);
+  }
   void process(const Aiding& reading, Output&) override {
     if (navigator_) navigator_->add(reading);
   }
@@ -41,7 +43,8 @@ class NavigatorEstimator final : public Estimator {
 Solution movedBy(const Solution& solution, const Vector<3>& lever_body) {
   Solution moved = solution;
   const Eigen::Quaterniond& q = solution.state.q_nav_body;
-  const Vector<3> lever = q * lever_body, swing = solution.rate_body ? Vector<3>(q * solution.rate_body->cross(lever_body)) : Vector<3>::Zero();
+  const Vector<3> lever = q * lever_body,
+                  swing = solution.rate_body ? Vector<3>(q * solution.rate_body->cross(lever_body)) : Vector<3>::Zero();
   displace(moved.state, lever);
   moved.state.velocity_nav += swing;
   if (!solution.covariance) return moved;
@@ -57,7 +60,8 @@ std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& 
   if (!found) return nullptr;
   std::unique_ptr<Estimator> estimator;
   withFilter(found->filter, config, [&](const auto& filter, const NavigatorOptions& options) {
-    estimator = std::make_unique<NavigatorEstimator<std::decay_t<decltype(filter)>>>(filter, options, config, found->source);
+    estimator =
+        std::make_unique<NavigatorEstimator<std::decay_t<decltype(filter)>>>(filter, options, config, found->source);
   });
   return estimator;
 }

@@ -6,7 +6,7 @@ namespace sas_motion::ins {
 namespace {
 
 constexpr double kBetweenCheckpoints = 0.25;  // [s]
-constexpr double kFurthest = 1;               // beyond the newest reading of the inertial unit that a state is predicted to [s]
+constexpr double kFurthest = 1;  // beyond the newest reading of the inertial unit that a state is predicted to [s]
 
 /// Hands over a reading; the newest solution, where there is one.
 std::optional<Solution> give(Estimator& estimator, const Reading& reading, Output& output) {
@@ -36,7 +36,8 @@ void Head::restart(const Estimator& settled, const Readings& open) {
 }
 
 void Head::settle(std::size_t count) {
-  while (!checkpoints_.empty() && checkpoints_.front().next <= count) checkpoints_.pop_front();  // the settled one has taken as much
+  while (!checkpoints_.empty() && checkpoints_.front().next <= count)
+    checkpoints_.pop_front();  // the settled one has taken as much
   for (auto& checkpoint : checkpoints_) checkpoint.next -= count;
 }
 
@@ -93,7 +94,8 @@ ReadingQueue::Answer LiveSession::process(const Reading& reading) {
   const std::size_t before = session_.queue().open().size();
   const auto answer = session_.process(reading);
   const bool taken = answer == ReadingQueue::Answer::Taken;
-  const std::size_t now = session_.queue().open().size(), settled = answer == ReadingQueue::Answer::ClockSet ? 0 : before + (taken ? 1 : 0) - now;
+  const std::size_t now = session_.queue().open().size(),
+                    settled = answer == ReadingQueue::Answer::ClockSet ? 0 : before + (taken ? 1 : 0) - now;
   session_.feed();
   for (std::size_t lane = 0; lane < heads_.size(); ++lane) update(lane, taken, settled);
   return answer;

@@ -32,12 +32,14 @@ Errors gapVariance(const BridgedGap& bridge, double gap, double part) {
 }
 
 template <int M>
-Update<Gaussian<kStates>, M> Unaided::update(const Gaussian<kStates>& prior, const LinearMeasurement<kStates, M>& z) const {
+Update<Gaussian<kStates>, M> Unaided::update(const Gaussian<kStates>& prior,
+                                             const LinearMeasurement<kStates, M>& z) const {
   return examine(prior, z);
 }
 
 template <class Filter>
-Navigator<Filter>::Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start, Stamp stamp, const Options& options)
+Navigator<Filter>::Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start,
+                             Stamp stamp, const Options& options)
     : filter_(filter),
       model_(parameters, start),
       options_(options),
@@ -134,7 +136,8 @@ NavigationState Navigator<Filter>::dvl() const {
   NavigationState state = reckoned_;
   displace(state, -belief_.mean.template segment<3>(kDvlPosition));
   state.q_nav_body = fused().q_nav_body;
-  if (velocity_body_) state.velocity_nav = state.q_nav_body * (*velocity_body_ - model_.dvlError(*velocity_body_, belief_.mean));
+  if (velocity_body_)
+    state.velocity_nav = state.q_nav_body * (*velocity_body_ - model_.dvlError(*velocity_body_, belief_.mean));
   return state;
 }
 

@@ -11,9 +11,13 @@
 namespace sas_motion::ins {
 
 Session::Session(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory)
-    : options_(options), factory_(std::move(factory)), queue_(options.lag, options.max_gap), alignment_(options.alignment, options.config.parameters) {
+    : options_(options),
+      factory_(std::move(factory)),
+      queue_(options.lag, options.max_gap),
+      alignment_(options.alignment, options.config.parameters) {
   for (const auto& name : names) {
-    if (!factory_(name, options.config)) throw std::invalid_argument(fmt::format("'{}' is no estimator of this system", name));
+    if (!factory_(name, options.config))
+      throw std::invalid_argument(fmt::format("'{}' is no estimator of this system", name));
     lanes_.push_back({name, nullptr, {}});
   }
 }
@@ -33,7 +37,8 @@ void Session::refuse(const Reading& reading, ReadingQueue::Answer answer) {
   const auto* aiding = std::get_if<Aiding>(&reading);
   if (aiding && answer == Answer::Late) events_.push_back(refusal(*aiding, Verdict::Stale, "older than the lag"));
   if (aiding && answer == Answer::Duplicate) events_.push_back(refusal(*aiding, Verdict::Invalid, "duplicate stamp"));
-  if (aiding && answer == Answer::Far) events_.push_back(refusal(*aiding, Verdict::Invalid, "stamp far ahead of the others"));
+  if (aiding && answer == Answer::Far)
+    events_.push_back(refusal(*aiding, Verdict::Invalid, "stamp far ahead of the others"));
   if (!std::holds_alternative<InertialReading>(reading)) return;
   inertial_.late += answer == Answer::Late;
   inertial_.duplicate += answer == Answer::Duplicate;

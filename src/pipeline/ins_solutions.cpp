@@ -35,7 +35,8 @@ const std::vector<NamedSolution>& namedSolutions() {
 
 const NamedSolution* findSolution(const std::string& name) {
   const auto& all = namedSolutions();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const NamedSolution& solution) { return solution.name == name; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const NamedSolution& solution) { return solution.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -47,7 +48,8 @@ std::optional<Solution> solutionOf(const Navigator<Filter>& navigator, Source so
   switch (source) {
     case Source::Fused:
       solution.state = navigator.fused();
-      if constexpr (!std::is_same_v<Filter, Unaided>) solution.covariance = covarianceOf(navigator.belief(), navigator.model().unit());
+      if constexpr (!std::is_same_v<Filter, Unaided>)
+        solution.covariance = covarianceOf(navigator.belief(), navigator.model().unit());
       break;
     case Source::Dvl:
       solution.state = navigator.dvl();

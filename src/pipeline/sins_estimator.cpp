@@ -13,21 +13,23 @@ extern template std::unique_ptr<ins::Estimator> makeNavigator<kStates>(const Nam
 
 const std::vector<NamedFilter>& namedFilters() {
   using Kind = FilterKind;
-  static const std::vector<NamedFilter> all{{"pf", Kind::Bootstrap},
-                                            {"upf", Kind::Unscented},
-                                            {"ss_srupf", Kind::SquareRoot},
-                                            {"robust_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, true},
-                                            {"smooth_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, false, true},
-                                            {"ss_srupf_optimal", Kind::SquareRoot, Weighting::OptimalProposal},
-                                            {"ss_srupf_literal", Kind::SquareRoot, Weighting::Literal},
-                                            {"ss_srukf", Kind::SquareRoot, Weighting::Mixture, true},
-                                            {"ukf", Kind::Unscented, Weighting::Mixture, true}};
+  static const std::vector<NamedFilter> all{
+      {"pf", Kind::Bootstrap},
+      {"upf", Kind::Unscented},
+      {"ss_srupf", Kind::SquareRoot},
+      {"robust_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, true},
+      {"smooth_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, false, true},
+      {"ss_srupf_optimal", Kind::SquareRoot, Weighting::OptimalProposal},
+      {"ss_srupf_literal", Kind::SquareRoot, Weighting::Literal},
+      {"ss_srukf", Kind::SquareRoot, Weighting::Mixture, true},
+      {"ukf", Kind::Unscented, Weighting::Mixture, true}};
   return all;
 }
 
 const NamedFilter* findFilter(const std::string& name) {
   const auto& all = namedFilters();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const NamedFilter& filter) { return filter.name == name; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const NamedFilter& filter) { return filter.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -46,7 +48,8 @@ std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Con
   if (name == "ckf27" || name == "robust_ckf27") return ins::makeEstimator(name, inSmallAngles(config));
   const NamedFilter* found = findFilter(name);
   if (!found) return nullptr;
-  return config.accelerometer_bias ? makeNavigator<kStates>(*found, config) : makeNavigator<kPaperStates>(*found, config);
+  return config.accelerometer_bias ? makeNavigator<kStates>(*found, config)
+                                   : makeNavigator<kPaperStates>(*found, config);
 }
 
 ins::Config inSmallAngles(const Config& config) {

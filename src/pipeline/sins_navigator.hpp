@@ -20,12 +20,14 @@ namespace sas_motion::sins {
 
 /// Mechanises the inertial unit, open loop, and estimates its errors with a particle filter.
 ///
-/// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale. DVL and depth of one stamp are
-/// fused together. The covariance of a solution is that of the filter's last step. A copy shares the particles until either changes them.
+/// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale.
+/// DVL and depth of one stamp are fused together. The covariance of a solution is that of the filter's last step. A
+/// copy shares the particles until either changes them.
 template <int N, class Filter>
 class Navigator final : public ins::Estimator {
  public:
-  Navigator(Filter filter, const Config& config, bool smooth) : filter_(std::make_shared<Filter>(std::move(filter))), config_(config), smooth_(smooth) {}
+  Navigator(Filter filter, const Config& config, bool smooth)
+      : filter_(std::make_shared<Filter>(std::move(filter))), config_(config), smooth_(smooth) {}
 
   void start(const NavigationState& state, Stamp stamp) override {
     ins_.emplace(state, stamp, config_.imu);
@@ -56,12 +58,14 @@ class Navigator final : public ins::Estimator {
     if (!ins_) return ImuVerdict::OutOfOrder;
     const ImuVerdict verdict = ins_->judge(reading);
     if (verdict == ImuVerdict::Implausible || verdict == ImuVerdict::OutOfOrder) return verdict;
-    std::stable_sort(waiting_.begin(), waiting_.end(), [](const ins::Aiding& a, const ins::Aiding& b) { return a.stamp < b.stamp; });
+    std::stable_sort(waiting_.begin(), waiting_.end(),
+                     [](const ins::Aiding& a, const ins::Aiding& b) { return a.stamp < b.stamp; });
     const double gap = verdict == ImuVerdict::Bridged ? secondsBetween(ins_->stamp(), reading.stamp) : 0;
     while (!waiting_.empty() && waiting_.front().stamp <= reading.stamp) {
       const Together group = takeGroup();
       if (group.stamp < ins_->stamp()) {
-        for (const auto& one : group.readings) output.audits.push_back(ins::refusal(one, Verdict::Stale, "older than the inertial unit's last reading"));
+        for (const auto& one : group.readings)
+          output.audits.push_back(ins::refusal(one, Verdict::Stale, "older than the inertial unit's last reading"));
         continue;
       }
       advance(reading, group.stamp, gap);
@@ -91,7 +95,8 @@ class Navigator final : public ins::Estimator {
     Stamp stamp = 0;
     std::vector<ins::Aiding> readings;
     const ins::Aiding* of(ins::Sensor sensor) const {
-      const auto found = std::find_if(readings.begin(), readings.end(), [&](const ins::Aiding& one) { return one.sensor == sensor; });
+      const auto found =
+          std::find_if(readings.begin(), readings.end(), [&](const ins::Aiding& one) { return one.sensor == sensor; });
       return found == readings.end() ? nullptr : &*found;
     }
   };
@@ -138,13 +143,16 @@ class Navigator final : public ins::Estimator {
 
   NavigationState fused() const { return View<N>(ins_->state()).corrected(meanNow()); }
   /// Between predictions the mean moves as the INS does.
-  Vector<N> meanNow() const { return felt_.duration() > 0 ? Motion<N>(config_.parameters, predicted_from_, felt_)(mean_) : mean_; }
+  Vector<N> meanNow() const {
+    return felt_.duration() > 0 ? Motion<N>(config_.parameters, predicted_from_, felt_)(mean_) : mean_;
+  }
   Vector<3> rateOverGround() const { return ins::rateOverGround(ins_->state(), ins_->rate_body()); }
 
   /// DVL and depth in four rows; one that was not read has a variance that hides it.
   void fuse(const Together& group, ins::Output& output) {
     for (const auto& one : group.readings)
-      if (!fuses(one.sensor)) output.audits.push_back(ins::refusal(one, Verdict::Invalid, "this system does not fuse it"));
+      if (!fuses(one.sensor))
+        output.audits.push_back(ins::refusal(one, Verdict::Invalid, "this system does not fuse it"));
     const auto *dvl = group.of(ins::Sensor::Dvl), *depth = group.of(ins::Sensor::Depth);
     if (!dvl && !depth) return;
     predict();
@@ -162,7 +170,9 @@ class Navigator final : public ins::Estimator {
       variance(3) = depth->variance ? depth->variance->x() : p.depth_white * p.depth_white;
     }
     const Vector<3> turning_body = rateOverGround().cross(p.dvl_lever_body);
-    const auto h = [&](const Vector<N>& x) -> Vector<4> { return (Vector<4>() << view.dvl(x, turning_body), view.height(x, p.depth_lever_body)).finished(); };
+    const auto h = [&](const Vector<N>& x) -> Vector<4> {
+      return (Vector<4>() << view.dvl(x, turning_body), view.height(x, p.depth_lever_body)).finished();
+    };
     const Vector<4> expected = h(mean_);
     if (!dvl) z.head<3>() = expected.head<3>();
     if (!depth) z(3) = expected(3);
@@ -188,10 +198,13 @@ class Navigator final : public ins::Estimator {
       audit.innovation.setZero();
       audit.S.setIdentity();
     }
-    audit.nis = audit.innovation.head(rows).dot(audit.S.topLeftCorner(rows, rows).llt().solve(audit.innovation.head(rows)));
+    audit.nis =
+        audit.innovation.head(rows).dot(audit.S.topLeftCorner(rows, rows).llt().solve(audit.innovation.head(rows)));
     audit.weights.head(rows) = update.weights.segment(first, rows);
     if (filter_->particles().size() > 1) audit.effective_size = update.effective_size;
-    if (update.verdict == Verdict::Invalid) audit.reason = readable ? "no particle explains it; all are kept" : "not finite, or read together with what is not";
+    if (update.verdict == Verdict::Invalid)
+      audit.reason =
+          readable ? "no particle explains it; all are kept" : "not finite, or read together with what is not";
     return audit;
   }
 
@@ -232,8 +245,12 @@ std::unique_ptr<ins::Estimator> makeNavigator(const NamedFilter& named, const Co
   };
   switch (named.kind) {
     case FilterKind::Bootstrap: return navigator(ParticleFilter<N>(options));
-    case FilterKind::Unscented: return navigator(UnscentedParticleFilter(OneByOne(UnscentedKalmanFilter<N>(unscentedPoints<N>({1, 0, 1}))), options));
-    case FilterKind::SquareRoot: return navigator(UnscentedParticleFilter(SimplexBlocks<N>(simplexPoints<N>(kCentreWeight), config.vectorised), options));
+    case FilterKind::Unscented:
+      return navigator(
+          UnscentedParticleFilter(OneByOne(UnscentedKalmanFilter<N>(unscentedPoints<N>({1, 0, 1}))), options));
+    case FilterKind::SquareRoot:
+      return navigator(
+          UnscentedParticleFilter(SimplexBlocks<N>(simplexPoints<N>(kCentreWeight), config.vectorised), options));
   }
   return nullptr;
 }

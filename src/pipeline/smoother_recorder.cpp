@@ -22,9 +22,11 @@ void refuse(const std::vector<Measurement>& measurements, Verdict verdict, const
 
 }  // namespace
 
-Audit smoothedAudit(const Measurement& z, const StateVector& x, const Model& model, const Vector<2>& weights, int iterations) {
+Audit smoothedAudit(const Measurement& z, const StateVector& x, const Model& model, const Vector<2>& weights,
+                    int iterations) {
   Audit audit = refusal(z, Verdict::Accepted, "");
-  model.linearize(z, x, [&](const auto& linear) { audit.innovation.head(linear.innovation.rows()) = linear.innovation; });
+  model.linearize(z, x,
+                  [&](const auto& linear) { audit.innovation.head(linear.innovation.rows()) = linear.innovation; });
   audit.weights = weights;
   audit.iterations = iterations;
   if (weights.head(audit.rows).minCoeff() < kDownWeighted) {
@@ -55,7 +57,8 @@ void SmootherRecorder::finish(Output& output) {
   const auto end_of_solution = static_cast<std::ptrdiff_t>(output.audits.size());
   refuse(duplicates, Verdict::Invalid, "duplicate stamp", output);
   const auto begin = output.audits.begin();
-  std::inplace_merge(begin + first_audit, begin + end_of_solution, output.audits.end(), [](const Audit& a, const Audit& b) { return a.stamp < b.stamp; });
+  std::inplace_merge(begin + first_audit, begin + end_of_solution, output.audits.end(),
+                     [](const Audit& a, const Audit& b) { return a.stamp < b.stamp; });
 }
 
 void SmootherRecorder::solve(Output& output) {
@@ -65,14 +68,17 @@ void SmootherRecorder::solve(Output& output) {
     summary_.failure = "no position and heading to start from";
     return refuse(measurements_, Verdict::Stale, "before the first position and heading", output);
   }
-  const auto start = std::find_if(measurements_.begin(), measurements_.end(), [&](const Measurement& z) { return z.stamp >= problem->stamps.front(); });
+  const auto start = std::find_if(measurements_.begin(), measurements_.end(),
+                                  [&](const Measurement& z) { return z.stamp >= problem->stamps.front(); });
   refuse({measurements_.begin(), start}, Verdict::Stale, "before the first position and heading", output);
   SmootherResult result = solve_(*problem);
-  if (!result.failure.empty()) refuse({start, measurements_.end()}, Verdict::Invalid, "the smoother found no solution", output);
+  if (!result.failure.empty())
+    refuse({start, measurements_.end()}, Verdict::Invalid, "the smoother found no solution", output);
   for (std::size_t k = 0; result.failure.empty() && k < problem->nodes(); ++k) {
     output.estimates.push_back({problem->stamps[k], result.states[k]});
     for (std::size_t j = problem->first[k]; j < problem->first[k + 1]; ++j)
-      output.audits.push_back(smoothedAudit(problem->measurements[j], result.states[k].mean, problem->model, result.weights[j], result.iterations));
+      output.audits.push_back(smoothedAudit(problem->measurements[j], result.states[k].mean, problem->model,
+                                            result.weights[j], result.iterations));
   }
   result.states.clear();
   result.weights.clear();

@@ -12,7 +12,8 @@ namespace sas_motion {
 
 Loss::Loss(LossKind kind, double tuning) : kind_(kind), tuning_(tuning) {
   if (!(tuning > 0) || !std::isfinite(tuning))
-    throw std::invalid_argument(fmt::format("the tuning of loss {} is {} but must be positive and finite", lossName(kind), tuning));
+    throw std::invalid_argument(
+        fmt::format("the tuning of loss {} is {} but must be positive and finite", lossName(kind), tuning));
 }
 
 double Loss::rho(double residual) const {
@@ -25,7 +26,8 @@ double Loss::rho(double residual) const {
     case LossKind::Tukey: return r <= c ? r2 * (0.5 - u / 2 + u * u / 6) : c2 / 6;
     case LossKind::GemanMcClure: return 0.5 * r2 / (1 + u);
     case LossKind::Welsch: return -0.5 * c2 * std::expm1(-u);
-    case LossKind::Dcs: return r2 <= c ? 0.5 * r2 : c * (1.5 * r2 - 0.5 * c) / (c + r2);  // (Phi = c) [Agarwal2013, MacTavish2015]
+    case LossKind::Dcs:
+      return r2 <= c ? 0.5 * r2 : c * (1.5 * r2 - 0.5 * c) / (c + r2);  // (Phi = c) [Agarwal2013, MacTavish2015]
   }
   return 0;
 }
@@ -74,17 +76,21 @@ double Loss::defaultTuning(LossKind kind) {
   return 1;
 }
 
-bool Loss::redescending(LossKind kind) { return kind != LossKind::L2 && kind != LossKind::Huber && kind != LossKind::PseudoHuber; }
+bool Loss::redescending(LossKind kind) {
+  return kind != LossKind::L2 && kind != LossKind::Huber && kind != LossKind::PseudoHuber;
+}
 
 const std::vector<std::string>& lossNames() {
-  static const std::vector<std::string> names{"l2", "huber", "pseudo_huber", "cauchy", "tukey", "geman_mcclure", "welsch", "dcs"};
+  static const std::vector<std::string> names{"l2",    "huber",         "pseudo_huber", "cauchy",
+                                              "tukey", "geman_mcclure", "welsch",       "dcs"};
   return names;
 }
 
 LossKind lossFromName(const std::string& name) {
   const auto& names = lossNames();
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw std::invalid_argument(fmt::format("'{}' is no loss; choose one of {}", name, fmt::join(names, ", ")));
+  if (found == names.end())
+    throw std::invalid_argument(fmt::format("'{}' is no loss; choose one of {}", name, fmt::join(names, ", ")));
   return static_cast<LossKind>(found - names.begin());
 }
 

@@ -12,7 +12,10 @@
 namespace sas_motion::ros_side {
 
 BatchSolver::BatchSolver(ros::NodeHandle node, ros::NodeHandle own, const Settings& settings)
-    : settings_(settings), estimator_(towfish::makeAnyEstimator("batch", settings.estimation)), publisher_(node, "batch"), spinner_(1, &queue_) {
+    : settings_(settings),
+      estimator_(towfish::makeAnyEstimator("batch", settings.estimation)),
+      publisher_(node, "batch"),
+      spinner_(1, &queue_) {
   own.setCallbackQueue(&queue_);
   service_ = own.advertiseService("solve_batch", &BatchSolver::onSolve, this);
   spinner_.start();
@@ -57,7 +60,8 @@ bool BatchSolver::onSolve(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
     ros::WallDuration(kBetweenBursts).sleep();
   }
   response.success = states > 0;
-  response.message = states > 0 ? fmt::format("{} states in {:.2f} s", states, seconds) : "nothing solved: " + estimator_->failure();
+  response.message =
+      states > 0 ? fmt::format("{} states in {:.2f} s", states, seconds) : "nothing solved: " + estimator_->failure();
   return true;
 }
 

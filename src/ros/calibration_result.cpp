@@ -36,10 +36,12 @@ std::string CalibrationResult::conclusion() const {
   if (!observability.observable) return observability.verdict;
   if (!comparison.agrees)
     return fmt::format(
-        "not to be trusted: {} and batch disagree, their squared distance is {:.0f} where {:.1f} is the limit; it may have locked in to wrong readings",
+        "not to be trusted: {} and batch disagree, their squared distance is {:.0f} where {:.1f} is the limit; it may "
+        "have locked in to wrong readings",
         comparison.best().name, comparison.distance, agreementLimit());
   const bool alone = comparison.best().name == "batch";
-  return fmt::format("observable: {}{}", observability.verdict, alone ? "" : fmt::format("; {} and batch agree", comparison.best().name));
+  return fmt::format("observable: {}{}", observability.verdict,
+                     alone ? "" : fmt::format("; {} and batch agree", comparison.best().name));
 }
 
 }  // namespace sas_motion::ros_side

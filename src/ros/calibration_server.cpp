@@ -32,7 +32,8 @@ FilterUpdate auditOf(const usbl::Ping& ping, const usbl::Calibrator::Report& rep
 
 }  // namespace
 
-CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : node_(node), names_{"hvbckf"} {
+CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::NodeHandle& own)
+    : node_(node), names_{"hvbckf"} {
   settings_ = UsblSettings::fromFile(own.param<std::string>("config", ""));
   own.getParam("estimators", names_);
   if (names_.empty()) throw std::invalid_argument("~estimators is empty; name at least one filter, such as hvbckf");
@@ -47,14 +48,18 @@ CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::Nod
   const auto transport = ros::TransportHints().tcpNoDelay();
   using Fix = sensor_msgs::NavSatFix::ConstPtr;
   subscribers_.push_back(node_.subscribe<sensor_msgs::NavSatFix>(
-      settings_.fix_topic, kQueue, [this](const Fix& m) { receive(m->header.frame_id, [this, m] { ingest_->takeFix(*m); }); }, {}, transport));
+      settings_.fix_topic, kQueue,
+      [this](const Fix& m) { receive(m->header.frame_id, [this, m] { ingest_->takeFix(*m); }); }, {}, transport));
   subscribers_.push_back(node_.subscribe<sensor_msgs::NavSatFix>(
-      settings_.transponder_topic, kQueue, [this](const Fix& m) { receive("", [this, m] { ingest_->takeTransponder(*m); }); }, {}, transport));
+      settings_.transponder_topic, kQueue,
+      [this](const Fix& m) { receive("", [this, m] { ingest_->takeTransponder(*m); }); }, {}, transport));
   subscribers_.push_back(node_.subscribe<sensor_msgs::Imu>(
-      settings_.imu_topic, kQueue, [this](const sensor_msgs::Imu::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); }, {},
-      transport));
+      settings_.imu_topic, kQueue,
+      [this](const sensor_msgs::Imu::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); },
+      {}, transport));
   subscribers_.push_back(node_.subscribe<UsblMeasurement>(
-      settings_.measurement_topic, kQueue, [this](const UsblMeasurement::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); }, {},
+      settings_.measurement_topic, kQueue,
+      [this](const UsblMeasurement::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); }, {},
       transport));
 
   ros::NodeHandle services(own);
@@ -63,7 +68,8 @@ CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::Nod
   updater_ = std::make_unique<diagnostic_updater::Updater>(node_, own, own.getNamespace());
   updater_->setHardwareID("none");
   updater_->add("calibration", this, &CalibrationServer::diagnose);
-  timer_ = ros::NodeHandle(own).createWallTimer(ros::WallDuration(kDiagnosticPeriod), [this](const ros::WallTimerEvent&) { updater_->force_update(); });
+  timer_ = ros::NodeHandle(own).createWallTimer(ros::WallDuration(kDiagnosticPeriod),
+                                                [this](const ros::WallTimerEvent&) { updater_->force_update(); });
 }
 
 void CalibrationServer::beginAnew() {
@@ -73,7 +79,8 @@ void CalibrationServer::beginAnew() {
   for (const auto& [id, position] : surveyed) ingest_->setTransponder(id, position);  // latched: it is told once
   if (lanes_.empty())
     for (const auto& name : names_)
-      lanes_.push_back({name, usbl::Calibrator(name, settings_.calibration), node_.advertise<UsblCalibration>(name + "/calibration", kQueue, true),
+      lanes_.push_back({name, usbl::Calibrator(name, settings_.calibration),
+                        node_.advertise<UsblCalibration>(name + "/calibration", kQueue, true),
                         node_.advertise<FilterUpdate>(name + "/update", kQueue)});
   for (auto& lane : lanes_) lane.calibrator = usbl::Calibrator(lane.name, settings_.calibration);
   pings_.clear();
@@ -99,15 +106,17 @@ void CalibrationServer::receive(const std::string& frame, std::function<void()> 
 /// The array usually has no transform, as nobody knows it yet; where it has a nominal one, that must not be missed.
 bool CalibrationServer::transformsReady() {
   if ((ros::WallTime::now() - first_message_).toSec() > transform_wait_) return true;
-  return frames_.size() >= 3 && std::all_of(frames_.begin(), frames_.end(),
-                                            [&](const std::string& frame) { return transforms_.canTransform(settings_.base_frame, frame, ros::Time(0)); });
+  return frames_.size() >= 3 && std::all_of(frames_.begin(), frames_.end(), [&](const std::string& frame) {
+           return transforms_.canTransform(settings_.base_frame, frame, ros::Time(0));
+         });
 }
 
 void CalibrationServer::process(const usbl::Ping& ping) {
   if (pings_.size() < static_cast<std::size_t>(most_pings_)) pings_.push_back(ping);
   for (auto& lane : lanes_) publish(lane, ping, lane.calibrator.process(ping));
   const auto& first = lanes_.front().calibrator;
-  usbl::Problem one{usbl::Model(settings_.calibration.mode), settings_.calibration.prior, {ping}, first.noiseFactor().cwiseSqrt()};
+  usbl::Problem one{
+      usbl::Model(settings_.calibration.mode), settings_.calibration.prior, {ping}, first.noiseFactor().cwiseSqrt()};
   one.pings[0].reading = one.model.convert(ping.reading);
   information_ += usbl::information(one, usbl::Model::widened(first.belief().mean));
   observability_ = usbl::observability(information_, settings_.calibration.prior, observability_.pings + 1);
@@ -144,7 +153,8 @@ void CalibrationServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   using diagnostic_msgs::DiagnosticStatus;
   const auto& first = lanes_.front().calibrator;
   if (!first.started())
-    status.summary(DiagnosticStatus::WARN, observability_.pings == 0 ? "no ping yet" : "starting: the first minute is fitted together");
+    status.summary(DiagnosticStatus::WARN,
+                   observability_.pings == 0 ? "no ping yet" : "starting: the first minute is fitted together");
   else if (!observability_.observable)
     status.summary(DiagnosticStatus::WARN, observability_.verdict);
   else if (!withinTolerance(first))
@@ -154,17 +164,19 @@ void CalibrationServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   const usbl::State sigma = first.belief().covariance.diagonal().cwiseSqrt();
   for (int i = 0; i < usbl::kStates; ++i) {
     const double unit = usbl::isAngle(i) ? kRadPerDeg : 1;
-    status.addf(usbl::unknownNames()[static_cast<std::size_t>(i)] + (usbl::isAngle(i) ? " [deg]" : " [m]"), "%.4f +- %.4f", first.belief().mean(i) / unit,
-                3 * sigma(i) / unit);
+    status.addf(usbl::unknownNames()[static_cast<std::size_t>(i)] + (usbl::isAngle(i) ? " [deg]" : " [m]"),
+                "%.4f +- %.4f", first.belief().mean(i) / unit, 3 * sigma(i) / unit);
   }
   status.addf("pings", "%zu", observability_.pings);
   status.addf("measurements", "%lu", ingest_->builder().readings());
   for (int i = 0; i < usbl::kOmissions; ++i) {
     const auto omission = static_cast<usbl::Omission>(i);
-    if (ingest_->builder().omitted(omission) > 0) status.addf("measurements " + usbl::omissionText(omission), "%lu", ingest_->builder().omitted(omission));
+    if (ingest_->builder().omitted(omission) > 0)
+      status.addf("measurements " + usbl::omissionText(omission), "%lu", ingest_->builder().omitted(omission));
   }
   for (const auto& frame : ingest_->counts().frames)
-    status.mergeSummary(DiagnosticStatus::ERROR, fmt::format("frame {} has no transform to {}", frame, settings_.base_frame));
+    status.mergeSummary(DiagnosticStatus::ERROR,
+                        fmt::format("frame {} has no transform to {}", frame, settings_.base_frame));
   for (const auto& lane : lanes_) status.addf(lane.name + " lock-ins", "%d", lane.calibrator.lockIns());
 }
 

@@ -14,7 +14,9 @@ namespace {
 using towfish::Sensor;
 using namespace towfish;  // the names of the states
 
-double believed(double variance, const SensorOptions& options) { return believedVariance(variance, options.sigma, options.floor, options.override_message); }
+double believed(double variance, const SensorOptions& options) {
+  return believedVariance(variance, options.sigma, options.floor, options.override_message);
+}
 
 Measurement begin(const ros::Time& stamp, Sensor sensor, const Config& config) {
   Measurement z;
@@ -75,11 +77,16 @@ Transform transformOf(const geometry_msgs::Transform& message) {
   return T;
 }
 
-bool hasPosition(const sensor_msgs::NavSatFix& fix) { return fix.status.status >= 0 && std::abs(fix.latitude) <= 90 && std::abs(fix.longitude) <= 360; }
+bool hasPosition(const sensor_msgs::NavSatFix& fix) {
+  return fix.status.status >= 0 && std::abs(fix.latitude) <= 90 && std::abs(fix.longitude) <= 360;
+}
 
-Geodetic geodeticOf(const sensor_msgs::NavSatFix& fix) { return {fix.latitude, fix.longitude, std::isfinite(fix.altitude) ? fix.altitude : 0}; }
+Geodetic geodeticOf(const sensor_msgs::NavSatFix& fix) {
+  return {fix.latitude, fix.longitude, std::isfinite(fix.altitude) ? fix.altitude : 0};
+}
 
-std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const LocalFrame& frame, const Transform& T_base_gnss, const Config& config) {
+std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const LocalFrame& frame,
+                                        const Transform& T_base_gnss, const Config& config) {
   const SensorOptions& options = config.sensor(Sensor::Position);
   if (!options.enabled || fix.status.status < 0) return {};
   Measurement z = begin(fix.header.stamp, Sensor::Position, config);
@@ -89,12 +96,14 @@ std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const
     z.value << enu(1), enu(0);
   }
   const bool known = fix.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
-  z.variance << believed(known ? fix.position_covariance[4] : -1, options), believed(known ? fix.position_covariance[0] : -1, options);
+  z.variance << believed(known ? fix.position_covariance[4] : -1, options),
+      believed(known ? fix.position_covariance[0] : -1, options);
   z.lever_arm_body << T_base_gnss.translation().x(), -T_base_gnss.translation().y();
   return {z};
 }
 
-std::vector<Measurement> measurementsOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu, const Config& config) {
+std::vector<Measurement> measurementsOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu,
+                                        const Config& config) {
   std::vector<Measurement> measurements;
   const SensorOptions &heading = config.sensor(Sensor::Heading), &rate = config.sensor(Sensor::TurnRate);
   if (heading.enabled && imu.orientation_covariance[0] != -1) {
@@ -116,7 +125,8 @@ std::vector<Measurement> measurementsOf(const sensor_msgs::Imu& imu, const Trans
   return measurements;
 }
 
-std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const Transform& T_base_dvl, const Config& config) {
+std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovarianceStamped& twist,
+                                        const Transform& T_base_dvl, const Config& config) {
   const SensorOptions& options = config.sensor(Sensor::Speed);
   if (!options.enabled) return {};
   Measurement z = begin(twist.header.stamp, Sensor::Speed, config);
@@ -141,12 +151,14 @@ Gaussian<kStates> beliefOf(const sas_motion::SetStateRequest& request) {
   } else if (request.covariance.size() == n) {
     P = Eigen::Map<const StateVector>(request.covariance.data()).cwiseAbs2().asDiagonal();
   } else {
-    throw std::invalid_argument("covariance has " + std::to_string(request.covariance.size()) + " numbers; give 36, row-major, or 6 standard deviations");
+    throw std::invalid_argument("covariance has " + std::to_string(request.covariance.size()) +
+                                " numbers; give 36, row-major, or 6 standard deviations");
   }
   const Eigen::Map<const StateVector> x(request.state.data());
   if (!x.allFinite() || x.cwiseAbs().maxCoeff() > 1e9) throw std::invalid_argument("state is not finite");
   const double asymmetry = (P - P.transpose()).cwiseAbs().maxCoeff();
-  if (!P.allFinite() || asymmetry > 1e-9 * P.cwiseAbs().maxCoeff() || Eigen::LLT<StateMatrix>(P).info() != Eigen::Success)
+  if (!P.allFinite() || asymmetry > 1e-9 * P.cwiseAbs().maxCoeff() ||
+      Eigen::LLT<StateMatrix>(P).info() != Eigen::Success)
     throw std::invalid_argument("covariance is not symmetric and positive definite");
   StateMatrix axes = StateMatrix::Zero();  // from x, y, counter-clockwise to north, east, clockwise
   axes(kNorth, 1) = axes(kEast, 0) = axes(kCurrentNorth, 3) = axes(kCurrentEast, 2) = axes(kSpeed, 5) = 1;
@@ -205,8 +217,10 @@ geometry_msgs::TwistWithCovarianceStamped currentOf(const Estimate& estimate, co
 sensor_msgs::NavSatFix fixOf(const Estimate& estimate, const LocalFrame& frame, const Settings& settings) {
   const StateVector& x = estimate.belief.mean;
   const StateMatrix& P = estimate.belief.covariance;
-  sensor_msgs::NavSatFix fix = fixAt(frame.geodetic({x(kEast), x(kNorth), 0}), timeOf(estimate.stamp), settings.base_frame);
-  fix.position_covariance = {P(kEast, kEast), P(kEast, kNorth), 0, P(kEast, kNorth), P(kNorth, kNorth), 0, 0, 0, kUnknown};
+  sensor_msgs::NavSatFix fix =
+      fixAt(frame.geodetic({x(kEast), x(kNorth), 0}), timeOf(estimate.stamp), settings.base_frame);
+  fix.position_covariance = {P(kEast, kEast), P(kEast, kNorth), 0, P(kEast, kNorth), P(kNorth, kNorth), 0, 0, 0,
+                             kUnknown};
   fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_KNOWN;
   return fix;
 }

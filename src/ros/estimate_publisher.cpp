@@ -27,7 +27,8 @@ void EstimatePublisher::queue(towfish::Output& output) {
 }
 
 void EstimatePublisher::publishSettled(std::size_t most, const Settings& settings) {
-  for (std::size_t i = 0; i < most && !audits_.empty(); ++i, audits_.pop_front()) publishTo(update_, [&] { return updateOf(audits_.front()); });
+  for (std::size_t i = 0; i < most && !audits_.empty(); ++i, audits_.pop_front())
+    publishTo(update_, [&] { return updateOf(audits_.front()); });
   for (std::size_t i = 0; i < most && !estimates_.empty(); ++i, estimates_.pop_front()) {
     publishTo(settled_, [&] { return odometryOf(estimates_.front(), settings); });
     publishTo(settled_current_, [&] { return currentOf(estimates_.front(), settings); });

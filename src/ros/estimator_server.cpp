@@ -8,7 +8,8 @@
 
 namespace sas_motion::ros_side {
 
-EstimatorServer::EstimatorServer(const ros::NodeHandle& node, const ros::NodeHandle& own, const std::vector<std::string>& default_estimators)
+EstimatorServer::EstimatorServer(const ros::NodeHandle& node, const ros::NodeHandle& own,
+                                 const std::vector<std::string>& default_estimators)
     : node_(node), own_(own) {
   std::string config;
   bool with_batch = false;
@@ -30,27 +31,34 @@ EstimatorServer::EstimatorServer(const ros::NodeHandle& node, const ros::NodeHan
   listener_ = std::make_unique<tf2_ros::TransformListener>(transforms_, node_);
   startAnew();
   const auto hints = ros::TransportHints().tcpNoDelay();
-  subscribers_.push_back(
-      node_.subscribe<sensor_msgs::NavSatFix>(settings_.fix_topic, kQueue, &EstimatorServer::onMessage<sensor_msgs::NavSatFix>, this, hints));
-  subscribers_.push_back(node_.subscribe<sensor_msgs::Imu>(settings_.imu_topic, kQueue, &EstimatorServer::onMessage<sensor_msgs::Imu>, this, hints));
+  subscribers_.push_back(node_.subscribe<sensor_msgs::NavSatFix>(
+      settings_.fix_topic, kQueue, &EstimatorServer::onMessage<sensor_msgs::NavSatFix>, this, hints));
+  subscribers_.push_back(node_.subscribe<sensor_msgs::Imu>(settings_.imu_topic, kQueue,
+                                                           &EstimatorServer::onMessage<sensor_msgs::Imu>, this, hints));
   subscribers_.push_back(node_.subscribe<geometry_msgs::TwistWithCovarianceStamped>(
-      settings_.twist_topic, kQueue, &EstimatorServer::onMessage<geometry_msgs::TwistWithCovarianceStamped>, this, hints));
+      settings_.twist_topic, kQueue, &EstimatorServer::onMessage<geometry_msgs::TwistWithCovarianceStamped>, this,
+      hints));
   advertiseServices();
   reconfigure_ = std::make_unique<Reconfigure>(own_, settings_.estimation, [this](const towfish::Config& changed) {
     for (auto& lane : lanes_) lane.estimator->configure(changed);
   });
 
-  updater_ = std::make_unique<diagnostic_updater::Updater>(node_, own_, own_.getNamespace());  // two nodelets of one manager are told apart
+  updater_ = std::make_unique<diagnostic_updater::Updater>(
+      node_, own_, own_.getNamespace());  // two nodelets of one manager are told apart
   updater_->setHardwareID("sas_motion");
   updater_->add("estimators", this, &EstimatorServer::diagnose);
-  diagnostic_timer_ = node_.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) { updater_->force_update(); });
+  diagnostic_timer_ =
+      node_.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) { updater_->force_update(); });
   idle_timer_ = node_.createWallTimer(ros::WallDuration(0.5), &EstimatorServer::onIdle, this);
-  settled_timer_ = node_.createWallTimer(ros::WallDuration(kBetweenBursts), [this](const ros::WallTimerEvent&) { publishSettled(kBurst); });
+  settled_timer_ = node_.createWallTimer(ros::WallDuration(kBetweenBursts),
+                                         [this](const ros::WallTimerEvent&) { publishSettled(kBurst); });
 }
 
 void EstimatorServer::addLane(const std::string& name) {
   auto estimator = towfish::makeAnyEstimator(name, settings_.estimation);
-  if (!estimator) throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name, fmt::join(towfish::estimatorNames(), ", ")));
+  if (!estimator)
+    throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name,
+                                  fmt::join(towfish::estimatorNames(), ", ")));
   for (const auto& lane : lanes_)
     if (lane.name == name) throw ConfigError(fmt::format("~estimators: '{}' is there twice; name each once", name));
   lanes_.push_back({name, std::move(estimator), EstimatePublisher(node_, name)});
@@ -81,9 +89,11 @@ void EstimatorServer::publishNow(Lane& lane) {
   const auto estimate = lane.estimator->current();
   if (!estimate) return;
   lane.publisher.publishNow(*estimate, ingest_->frame() ? &*ingest_->frame() : nullptr, settings_);
-  const bool moved = estimate->stamp != lane.published;  // late data change the answer at a stamp, but tf keeps the first
+  const bool moved =
+      estimate->stamp != lane.published;  // late data change the answer at a stamp, but tf keeps the first
   lane.published = estimate->stamp;
-  if (publish_tf_ && moved && &lane == &lanes_.front()) broadcastPose(broadcaster_, odometryOf(*estimate, settings_), settings_);
+  if (publish_tf_ && moved && &lane == &lanes_.front())
+    broadcastPose(broadcaster_, odometryOf(*estimate, settings_), settings_);
 }
 
 void EstimatorServer::queueSettled(Lane& lane) {
@@ -108,7 +118,8 @@ void EstimatorServer::onIdle(const ros::WallTimerEvent&) {
     lane.estimator->finish(output_);
     queueSettled(lane);
     const auto newest = lane.estimator->current();
-    if (newest && newest->stamp != lane.published) publishNow(lane);  // a smoother runs behind its data until they pause
+    if (newest && newest->stamp != lane.published)
+      publishNow(lane);  // a smoother runs behind its data until they pause
   }
 }
 
@@ -116,7 +127,8 @@ void EstimatorServer::startAnew() {
   const auto frame = ingest_ ? ingest_->frame() : std::nullopt;
   auto fresh = std::make_unique<Ingest>(settings_, transforms_, [this](const Measurement& z) { onMeasurement(z); });
   if (frame) fresh->setDatum(frame->datum());
-  for (int i = 0; ingest_ && i < Ingest::kSources; ++i) fresh->enable(static_cast<Ingest::Source>(i), ingest_->enabled(static_cast<Ingest::Source>(i)));
+  for (int i = 0; ingest_ && i < Ingest::kSources; ++i)
+    fresh->enable(static_cast<Ingest::Source>(i), ingest_->enabled(static_cast<Ingest::Source>(i)));
   ingest_ = std::move(fresh);
   for (auto& lane : lanes_) {
     lane.estimator->reset();

@@ -5,7 +5,9 @@
 namespace sas_motion::ros_side {
 
 Ingest::Ingest(const Settings& settings, const tf2::BufferCore& transforms, Sink sink)
-    : settings_(settings), sink_(std::move(sink)), inbox_(SensorFrames(transforms, settings.base_frame), settings.frame_timeout, kSources) {
+    : settings_(settings),
+      sink_(std::move(sink)),
+      inbox_(SensorFrames(transforms, settings.base_frame), settings.frame_timeout, kSources) {
   if (settings.datum) setDatum(*settings.datum);
 }
 
@@ -17,12 +19,15 @@ void Ingest::take(const sensor_msgs::NavSatFix& message) {
 }
 
 void Ingest::take(const sensor_msgs::Imu& message) {
-  inbox_.receive(message, kImu, [this](const auto& imu, const Transform& T_base_imu) { return pass(measurementsOf(imu, T_base_imu, settings_.estimation)); });
+  inbox_.receive(message, kImu, [this](const auto& imu, const Transform& T_base_imu) {
+    return pass(measurementsOf(imu, T_base_imu, settings_.estimation));
+  });
 }
 
 void Ingest::take(const geometry_msgs::TwistWithCovarianceStamped& message) {
-  inbox_.receive(message, kTwist,
-                 [this](const auto& twist, const Transform& T_base_dvl) { return pass(measurementsOf(twist, T_base_dvl, settings_.estimation)); });
+  inbox_.receive(message, kTwist, [this](const auto& twist, const Transform& T_base_dvl) {
+    return pass(measurementsOf(twist, T_base_dvl, settings_.estimation));
+  });
 }
 
 bool Ingest::pass(const std::vector<Measurement>& measurements) const {

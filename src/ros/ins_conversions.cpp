@@ -33,15 +33,19 @@ Aiding begin(const ros::Time& stamp, Sensor sensor, const InsMount& mount, const
 
 Vector<3> believed(const Vector<3>& stated, const MessageOptions& options) {
   Vector<3> variance;
-  for (int row = 0; row < 3; ++row) variance(row) = believedVariance(stated(row), options.white(row), options.floor, options.override_message);
+  for (int row = 0; row < 3; ++row)
+    variance(row) = believedVariance(stated(row), options.white(row), options.floor, options.override_message);
   return variance;
 }
 
-std::optional<MeasuredAttitude> attitudeOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu, const Parameters& parameters) {
+std::optional<MeasuredAttitude> attitudeOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu,
+                                           const Parameters& parameters) {
   const auto C_nav_body = rotationOf(imu, T_base_imu);
   if (!C_nav_body) return std::nullopt;
   const auto& P = imu.orientation_covariance;
-  const auto sigma = [](double variance, double otherwise) { return usableVariance(variance) ? std::min(std::sqrt(variance), kUnknownAngle) : otherwise; };
+  const auto sigma = [](double variance, double otherwise) {
+    return usableVariance(variance) ? std::min(std::sqrt(variance), kUnknownAngle) : otherwise;
+  };
   const double tilt = std::max(sigma(P[0], parameters.start_tilt), sigma(P[4], parameters.start_tilt));
   return MeasuredAttitude{Eigen::Quaterniond(*C_nav_body), tilt, sigma(P[8], parameters.start_heading)};
 }
@@ -57,7 +61,8 @@ void fill(Message& covariance, const Matrix<6>& P) {
 
 Vector<3> InsMount::lever_body() const { return bodyVectorOf(T_base_sensor.translation() - T_base_imu.translation()); }
 
-std::optional<InertialReading> readingOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu, const ins::Settings& settings) {
+std::optional<InertialReading> readingOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu,
+                                         const ins::Settings& settings) {
   if (imu.angular_velocity_covariance[0] == -1 || imu.linear_acceleration_covariance[0] == -1) return std::nullopt;
   InertialReading reading;
   reading.imu.stamp = stampOf(imu.header.stamp) + stampFromSeconds(settings.imu_time_offset);
@@ -68,7 +73,8 @@ std::optional<InertialReading> readingOf(const sensor_msgs::Imu& imu, const Tran
   return reading;
 }
 
-std::optional<Aiding> readingOf(const sensor_msgs::NavSatFix& fix, const InsMount& mount, const ins::Settings& settings) {
+std::optional<Aiding> readingOf(const sensor_msgs::NavSatFix& fix, const InsMount& mount,
+                                const ins::Settings& settings) {
   if (!hasPosition(fix) || !std::isfinite(fix.altitude)) return std::nullopt;
   Aiding reading = begin(fix.header.stamp, Sensor::Gps, mount, settings);
   reading.fix.latitude = fix.latitude * kRadPerDeg;
@@ -81,11 +87,13 @@ std::optional<Aiding> readingOf(const sensor_msgs::NavSatFix& fix, const InsMoun
   return reading;
 }
 
-std::optional<Aiding> readingOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const InsMount& mount, const ins::Settings& settings) {
+std::optional<Aiding> readingOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const InsMount& mount,
+                                const ins::Settings& settings) {
   const Vector<3> velocity = vectorOf(twist.twist.twist.linear);
   const auto& P = twist.twist.covariance;
   const Vector<3> stated(P[0], P[7], P[14]);
-  if (!(velocity.norm() <= kFastest) || (stated.array() < 0).any() || (stated.array() >= kNoLock).any()) return std::nullopt;
+  if (!(velocity.norm() <= kFastest) || (stated.array() < 0).any() || (stated.array() >= kNoLock).any())
+    return std::nullopt;
   Aiding reading = begin(twist.header.stamp, Sensor::Dvl, mount, settings);
   const Matrix<3> C_body_dvl = bodyFromRosBody() * mount.T_base_sensor.linear();
   reading.velocity_body = C_body_dvl * velocity;
@@ -93,19 +101,24 @@ std::optional<Aiding> readingOf(const geometry_msgs::TwistWithCovarianceStamped&
   return reading;
 }
 
-std::optional<GroundVelocity> groundVelocityOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const ins::Settings& settings) {
+std::optional<GroundVelocity> groundVelocityOf(const geometry_msgs::TwistWithCovarianceStamped& twist,
+                                               const ins::Settings& settings) {
   const Vector<3> velocity = vectorOf(twist.twist.twist.linear);
   const auto& P = twist.twist.covariance;
   const std::array<double, 3> stated{P[0], P[7], P[14]};
-  const bool refused = std::any_of(stated.begin(), stated.end(), [](double variance) { return variance < 0 || variance >= kNoLock; });
+  const bool refused =
+      std::any_of(stated.begin(), stated.end(), [](double variance) { return variance < 0 || variance >= kNoLock; });
   if (!(velocity.norm() <= kFastest) || refused) return std::nullopt;
   double sigma = 0;
   for (const double variance : stated)
-    sigma = std::max(sigma, usableVariance(variance) ? std::sqrt(variance) : settings.session.alignment.ground_velocity_sigma);
-  return GroundVelocity{stampOf(twist.header.stamp) + stampFromSeconds(settings.of(Sensor::Gps).time_offset), velocity, sigma};
+    sigma = std::max(sigma,
+                     usableVariance(variance) ? std::sqrt(variance) : settings.session.alignment.ground_velocity_sigma);
+  return GroundVelocity{stampOf(twist.header.stamp) + stampFromSeconds(settings.of(Sensor::Gps).time_offset), velocity,
+                        sigma};
 }
 
-std::optional<Aiding> readingOf(const geometry_msgs::PoseWithCovarianceStamped& depth, const InsMount& mount, const ins::Settings& settings) {
+std::optional<Aiding> readingOf(const geometry_msgs::PoseWithCovarianceStamped& depth, const InsMount& mount,
+                                const ins::Settings& settings) {
   const double z = depth.pose.pose.position.z;
   if (!std::isfinite(z)) return std::nullopt;
   Aiding reading = begin(depth.header.stamp, Sensor::Depth, mount, settings);
@@ -114,14 +127,17 @@ std::optional<Aiding> readingOf(const geometry_msgs::PoseWithCovarianceStamped& 
   return reading;
 }
 
-Geodetic geodeticOf(const NavigationState& state) { return {state.latitude / kRadPerDeg, state.longitude / kRadPerDeg, state.height}; }
+Geodetic geodeticOf(const NavigationState& state) {
+  return {state.latitude / kRadPerDeg, state.longitude / kRadPerDeg, state.height};
+}
 
 nav_msgs::Odometry odometryOf(const Solution& solution, const LocalFrame& frame, const InsSettings& settings) {
   const NavigationState& state = solution.state;
   const Geodetic point = geodeticOf(state);
   const Vector<3> position = frame.position_enu(point);
   const Matrix<3> C_map_nav = frame.C_map_nav(point), C_map_body = C_map_nav * state.q_nav_body.toRotationMatrix();
-  const Matrix<3> C_base_body = bodyFromRosBody().transpose(), C_base_nav = C_base_body * state.q_nav_body.conjugate().toRotationMatrix();
+  const Matrix<3> C_base_body = bodyFromRosBody().transpose(),
+                  C_base_nav = C_base_body * state.q_nav_body.conjugate().toRotationMatrix();
   nav_msgs::Odometry odometry;
   odometry.header.stamp = timeOf(solution.stamp);
   odometry.header.frame_id = settings.map_frame;
@@ -162,7 +178,8 @@ sensor_msgs::NavSatFix fixOf(const Solution& solution, const InsSettings& settin
   if (!solution.covariance) return fix;
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 3; ++col)
-      fix.position_covariance[static_cast<std::size_t>(3 * row + col)] = (*solution.covariance)(kPosition + row, kPosition + col);
+      fix.position_covariance[static_cast<std::size_t>(3 * row + col)] =
+          (*solution.covariance)(kPosition + row, kPosition + col);
   fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_KNOWN;
   return fix;
 }

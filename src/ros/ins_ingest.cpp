@@ -5,9 +5,13 @@
 namespace sas_motion::ros_side {
 
 InsIngest::InsIngest(const InsSettings& settings, const tf2::BufferCore& transforms, Sink sink)
-    : settings_(settings), sink_(std::move(sink)), inbox_(SensorFrames(transforms, settings.base_frame), settings.frame_timeout, kSources) {
+    : settings_(settings),
+      sink_(std::move(sink)),
+      inbox_(SensorFrames(transforms, settings.base_frame), settings.frame_timeout, kSources) {
   if (settings.datum) setDatum(*settings.datum);
-  const auto enable = [&](Source source, ins::Sensor sensor) { inbox_.enable(source, settings.estimation.of(sensor).enabled); };
+  const auto enable = [&](Source source, ins::Sensor sensor) {
+    inbox_.enable(source, settings.estimation.of(sensor).enabled);
+  };
   enable(kFix, ins::Sensor::Gps);
   enable(kTwist, ins::Sensor::Dvl);
   enable(kDepth, ins::Sensor::Depth);

@@ -30,7 +30,8 @@ InsServer::InsServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : 
   for (const auto& name : names_) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw ConfigError(fmt::format("~estimators: '{}' is no estimator; known are {}", name, fmt::join(known, ", ")));
-    if (std::count(names_.begin(), names_.end(), name) > 1) throw ConfigError(fmt::format("~estimators: '{}' is there twice; name each once", name));
+    if (std::count(names_.begin(), names_.end(), name) > 1)
+      throw ConfigError(fmt::format("~estimators: '{}' is there twice; name each once", name));
     const OutputRate rate(settings_.estimation.output_rate);
     lanes_.push_back({name,
                       node_.advertise<nav_msgs::Odometry>(name + "/odometry", kQueue),
@@ -49,29 +50,33 @@ InsServer::InsServer(const ros::NodeHandle& node, const ros::NodeHandle& own) : 
   subscribe<sensor_msgs::NavSatFix>(settings_.fix_topic, &InsIngest::take);
   subscribe<geometry_msgs::TwistWithCovarianceStamped>(settings_.twist_topic, &InsIngest::take);
   subscribe<geometry_msgs::PoseWithCovarianceStamped>(settings_.depth_topic, &InsIngest::take);
-  if (!settings_.velocity_topic.empty()) subscribe<geometry_msgs::TwistWithCovarianceStamped>(settings_.velocity_topic, &InsIngest::takeVelocity);
-  services_ = {own_.advertiseService("reset", &InsServer::onReset, this), own_.advertiseService("enable_sensor", &InsServer::onEnableSensor, this),
+  if (!settings_.velocity_topic.empty())
+    subscribe<geometry_msgs::TwistWithCovarianceStamped>(settings_.velocity_topic, &InsIngest::takeVelocity);
+  services_ = {own_.advertiseService("reset", &InsServer::onReset, this),
+               own_.advertiseService("enable_sensor", &InsServer::onEnableSensor, this),
                own_.advertiseService("get_state_at", &InsServer::onGetStateAt, this)};
 
   updater_ = std::make_unique<diagnostic_updater::Updater>(node_, own_, own_.getNamespace());
   updater_->setHardwareID("sas_motion");
   updater_->add("estimators", this, &InsServer::diagnose);
-  diagnostic_timer_ = node_.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) { updater_->force_update(); });
+  diagnostic_timer_ =
+      node_.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) { updater_->force_update(); });
   idle_timer_ = node_.createWallTimer(ros::WallDuration(0.5), &InsServer::onIdle, this);
-  settled_timer_ = node_.createWallTimer(ros::WallDuration(kBetweenBursts), [this](const ros::WallTimerEvent&) { publishSettled(kBurst); });
+  settled_timer_ = node_.createWallTimer(ros::WallDuration(kBetweenBursts),
+                                         [this](const ros::WallTimerEvent&) { publishSettled(kBurst); });
 }
 
 template <class Message>
 void InsServer::subscribe(const std::string& topic, void (InsIngest::*take)(const Message&)) {
-  const boost::function<void(const boost::shared_ptr<Message const>&)> onMessage = [this, take](const boost::shared_ptr<Message const>& message) {
-    receive([&] { (*ingest_.*take)(*message); });
-  };
+  const boost::function<void(const boost::shared_ptr<Message const>&)> onMessage =
+      [this, take](const boost::shared_ptr<Message const>& message) { receive([&] { (*ingest_.*take)(*message); }); };
   subscribers_.push_back(node_.subscribe<Message>(topic, kQueue, onMessage, {}, ros::TransportHints().tcpNoDelay()));
 }
 
 void InsServer::startAnew() {
   session_ = std::make_unique<ins::LiveSession>(settings_.estimation.session, names_, settings_.make);
-  auto fresh = std::make_unique<InsIngest>(settings_, transforms_, [this](const ins::Reading& reading) { session_->process(reading); });
+  auto fresh = std::make_unique<InsIngest>(settings_, transforms_,
+                                           [this](const ins::Reading& reading) { session_->process(reading); });
   if (ingest_) {
     if (ingest_->frame()) fresh->setDatum(ingest_->frame()->datum());
     for (std::size_t i = 0; i < InsIngest::kSources; ++i) fresh->inbox().enable(i, ingest_->inbox().enabled(i));
@@ -155,7 +160,8 @@ void InsServer::onIdle(const ros::WallTimerEvent&) {
 void InsServer::diagnoseStart(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   const std::string waiting = whyNotStarted(session_->session().alignment(), settings_);
   status.add("start", waiting.empty() ? "started" : "waiting: " + waiting);
-  if (!waiting.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "the INS has not started: " + waiting);
+  if (!waiting.empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "the INS has not started: " + waiting);
 }
 
 void InsServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -165,8 +171,10 @@ void InsServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const auto& inertial = session_->session().inertial();
   status.addf("imu rate [1/s]", "%.2f", inertial.mean_period > 0 ? 1 / inertial.mean_period : 0);
   const auto& of = inertial.verdicts;
-  status.addf("imu integrated, off its rate, over gaps, out of order, implausible", "%lu, %lu, %lu, %lu, %lu", of[1], of[2], of[3], of[4], of[5]);
-  for (const auto& remark : remarksOn(inertial, ingest_->inbox(), settings_)) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, remark);
+  status.addf("imu integrated, off its rate, over gaps, out of order, implausible", "%lu, %lu, %lu, %lu, %lu", of[1],
+              of[2], of[3], of[4], of[5]);
+  for (const auto& remark : remarksOn(inertial, ingest_->inbox(), settings_))
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, remark);
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     diagnoseVerdicts(lanes_[i].name, lanes_[i].verdicts, status);
     diagnoseParticles(lanes_[i], status);
@@ -182,7 +190,8 @@ void InsServer::diagnoseParticles(const Lane& lane, diagnostic_updater::Diagnost
   if (!(lane.effective_size > 0)) return;
   status.addf(lane.name + " effective particles", "%.0f", lane.effective_size);
   if (lane.effective_size < kFewParticles)
-    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, lane.name + " has next to all weight on a few particles; its covariance is not to be trusted");
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        lane.name + " has next to all weight on a few particles; its covariance is not to be trusted");
 }
 
 bool InsServer::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -194,17 +203,22 @@ bool InsServer::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response
 
 bool InsServer::onEnableSensor(EnableSensor::Request& request, EnableSensor::Response& response) {
   return enableSensor(
-      InsIngest::kNames, [this](std::size_t source, bool enabled) { ingest_->inbox().enable(source, enabled); }, request, response);
+      InsIngest::kNames, [this](std::size_t source, bool enabled) { ingest_->inbox().enable(source, enabled); },
+      request, response);
 }
 
 bool InsServer::onGetStateAt(GetStateAt::Request& request, GetStateAt::Response& response) {
-  const auto found = request.estimator.empty() ? names_.begin() : std::find(names_.begin(), names_.end(), request.estimator);
+  const auto found =
+      request.estimator.empty() ? names_.begin() : std::find(names_.begin(), names_.end(), request.estimator);
   response.success = false;
   response.message = "no such estimator";
   if (found == names_.end()) return true;
   const auto solution = session_->at(static_cast<std::size_t>(found - names_.begin()), stampOf(request.stamp));
   response.success = solution && ingest_->frame();
-  response.message = response.success ? "" : "the stamp is older than the lag or far ahead, or the estimator has not started or keeps no present state";
+  response.message =
+      response.success
+          ? ""
+          : "the stamp is older than the lag or far ahead, or the estimator has not started or keeps no present state";
   if (response.success) response.odometry = odometryOf(ofBase(*solution), *ingest_->frame(), settings_);
   return true;
 }

@@ -26,13 +26,19 @@ std::unique_ptr<Server> serve(const ros::NodeHandle& node, const ros::NodeHandle
 
 /// Filters, live: by default kf and robust_kf side by side.
 class FilterNodelet final : public nodelet::Nodelet {
-  void onInit() override { server_ = serve<ros_side::EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(), std::vector<std::string>{"kf", "robust_kf"}); }
+  void onInit() override {
+    server_ = serve<ros_side::EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(),
+                                               std::vector<std::string>{"kf", "robust_kf"});
+  }
   std::unique_ptr<ros_side::EstimatorServer> server_;
 };
 
 /// The factor-graph smoother, live: fixed_lag, and batch on request (~batch: true, ~solve_batch).
 class SmootherNodelet final : public nodelet::Nodelet {
-  void onInit() override { server_ = serve<ros_side::EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(), std::vector<std::string>{"fixed_lag"}); }
+  void onInit() override {
+    server_ = serve<ros_side::EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(),
+                                               std::vector<std::string>{"fixed_lag"});
+  }
   std::unique_ptr<ros_side::EstimatorServer> server_;
 };
 

@@ -5,7 +5,8 @@
 namespace sas_motion::ros_side {
 namespace {
 
-/// Takes a loss and its tuning; another loss without another tuning comes with its customary one. True where something changed.
+/// Takes a loss and its tuning; another loss without another tuning comes with its customary one. True where something
+/// changed.
 bool take(const std::string& name, double& tuning, Loss& loss) {
   const LossKind kind = lossFromName(name);
   if (kind != loss.kind() && tuning == loss.tuning()) tuning = Loss::defaultTuning(kind);

@@ -11,7 +11,8 @@
 namespace sas_motion::ros_side {
 
 void EstimatorServer::advertiseServices() {
-  services_ = {own_.advertiseService("reset", &EstimatorServer::onReset, this), own_.advertiseService("set_datum", &EstimatorServer::onSetDatum, this),
+  services_ = {own_.advertiseService("reset", &EstimatorServer::onReset, this),
+               own_.advertiseService("set_datum", &EstimatorServer::onSetDatum, this),
                own_.advertiseService("set_state", &EstimatorServer::onSetState, this),
                own_.advertiseService("enable_sensor", &EstimatorServer::onEnableSensor, this),
                own_.advertiseService("get_state_at", &EstimatorServer::onGetStateAt, this)};
@@ -80,7 +81,9 @@ std::string EstimatorServer::setState(Lane& lane, Estimate state) {
 
 bool EstimatorServer::onEnableSensor(EnableSensor::Request& request, EnableSensor::Response& response) {
   return enableSensor(
-      Ingest::kNames, [this](std::size_t source, bool enabled) { ingest_->enable(static_cast<Ingest::Source>(source), enabled); }, request, response);
+      Ingest::kNames,
+      [this](std::size_t source, bool enabled) { ingest_->enable(static_cast<Ingest::Source>(source), enabled); },
+      request, response);
 }
 
 bool EstimatorServer::onGetStateAt(GetStateAt::Request& request, GetStateAt::Response& response) {
@@ -90,7 +93,8 @@ bool EstimatorServer::onGetStateAt(GetStateAt::Request& request, GetStateAt::Res
     if (!request.estimator.empty() && request.estimator != lane.name) continue;
     const auto estimate = lane.estimator->at(stampOf(request.stamp));
     response.success = estimate.has_value();
-    response.message = estimate ? "" : "the stamp is older than the lag, or the estimator has not started or keeps no history";
+    response.message =
+        estimate ? "" : "the stamp is older than the lag, or the estimator has not started or keeps no history";
     if (estimate) {
       response.odometry = odometryOf(*estimate, settings_);
       response.current = currentOf(*estimate, settings_);

@@ -23,7 +23,8 @@ geometry_msgs::Quaternion messageOf(const Eigen::Quaterniond& q) {
 }
 
 double variance(double stated, double sigma) {
-  return usableVariance(stated) || sigma > 0 ? believedVariance(stated, sigma, 0, false) : std::numeric_limits<double>::quiet_NaN();
+  return usableVariance(stated) || sigma > 0 ? believedVariance(stated, sigma, 0, false)
+                                             : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -53,7 +54,9 @@ std::optional<Matrix<3>> rotationOf(const sensor_msgs::Imu& imu, const Transform
   return C_map_base * bodyFromRosBody().transpose();
 }
 
-geometry_msgs::Quaternion orientationOf(const Matrix<3>& C_map_body) { return messageOf(Eigen::Quaterniond(C_map_body * bodyFromRosBody())); }
+geometry_msgs::Quaternion orientationOf(const Matrix<3>& C_map_body) {
+  return messageOf(Eigen::Quaterniond(C_map_body * bodyFromRosBody()));
+}
 
 usbl::Mounting mountingOf(const Transform& T) {
   const Matrix<3> B = bodyFromRosBody();

@@ -51,7 +51,9 @@ void readSensor(YamlSection& yaml, Scenario::Readings& readings, Vector<3>& leve
 
 }  // namespace
 
-Vector<3> Scenario::Dpc::sightBody() const { return {(starboard ? 1 : -1) * std::cos(depression), 0, -std::sin(depression)}; }
+Vector<3> Scenario::Dpc::sightBody() const {
+  return {(starboard ? 1 : -1) * std::cos(depression), 0, -std::sin(depression)};
+}
 
 void Scenario::readDpc(YamlSection yaml) {
   yaml.number("white_along", dpc.white_along, {kTiny, 10});
@@ -59,7 +61,8 @@ void Scenario::readDpc(YamlSection yaml) {
   yaml.angle("depression_deg", dpc.depression, {0, 90});
   std::string side = dpc.starboard ? "starboard" : "port";
   yaml.text("side", side);
-  if (side != "starboard" && side != "port") yaml.fail("side", fmt::format("is '{}' but must be starboard or port", side));
+  if (side != "starboard" && side != "port")
+    yaml.fail("side", fmt::format("is '{}' but must be starboard or port", side));
   dpc.starboard = side == "starboard";
   readSensor(yaml, sensor(Sensor::Dpc), parameters.dpc_lever_body, 0);
 }
@@ -83,7 +86,8 @@ std::vector<Outage> Scenario::readOutages(YamlSection& owner, const std::string&
     Outage outage;
     item.number("begin", outage.begin, {0, 1e7});
     item.number("end", outage.end, {0, 1e7});
-    if (!(outage.begin < outage.end)) item.fail("end", fmt::format("is {} but must be after begin, which is {}", outage.end, outage.begin));
+    if (!(outage.begin < outage.end))
+      item.fail("end", fmt::format("is {} but must be after begin, which is {}", outage.end, outage.begin));
     item.finish();
     outages.push_back(outage);
   }

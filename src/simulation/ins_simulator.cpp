@@ -12,7 +12,8 @@
 namespace sas_motion::ins {
 namespace {
 
-constexpr std::uint64_t kStartStream = 1, kImuStream = 2, kMarkovStream = 10, kRowStream = 20, kSpellStream = 40, kDvlMountingStream = 60;
+constexpr std::uint64_t kStartStream = 1, kImuStream = 2, kMarkovStream = 10, kRowStream = 20, kSpellStream = 40,
+                        kDvlMountingStream = 60;
 
 Vector<3> gaussians(Random& random) {
   const double x = random.gaussian(), y = random.gaussian();
@@ -71,8 +72,11 @@ class AidingModel {
   Aiding read(const TruthSample& truth, double time, const Vector<3>& noise) {
     const Parameters& p = parameters_;
     switch (sensor_) {
-      case Sensor::Gps: return gps(truth, p.gps_markov.cwiseProduct(markov_.step(period_, p.gps_time, random_)) + p.gps_white.cwiseProduct(noise));
-      case Sensor::Dvl: return dvl(truth, p.dvl_markov * markov_.step(period_, p.dvl_time, random_) + p.dvl_white.cwiseProduct(noise));
+      case Sensor::Gps:
+        return gps(truth, p.gps_markov.cwiseProduct(markov_.step(period_, p.gps_time, random_)) +
+                              p.gps_white.cwiseProduct(noise));
+      case Sensor::Dvl:
+        return dvl(truth, p.dvl_markov * markov_.step(period_, p.dvl_time, random_) + p.dvl_white.cwiseProduct(noise));
       case Sensor::Depth: return depth(truth, p.depth_white * noise(0));
       case Sensor::Dpc: return dpc(truth, time, {dpc_.white_along * noise(0), dpc_.white_sight * noise(1)});
     }
@@ -90,7 +94,9 @@ class AidingModel {
     const auto& state = truth.state;
     const Vector<3> rate = truth.rateBody() - state.q_nav_body.conjugate() * earth::rotationRate(state.latitude);
     Aiding reading;
-    reading.velocity_body = mounting_.distortion * (state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(mounting_.lever_body)) + error;
+    reading.velocity_body =
+        mounting_.distortion * (state.q_nav_body.conjugate() * state.velocity_nav + rate.cross(mounting_.lever_body)) +
+        error;
     return reading;
   }
   /// From a ping half an interval earlier to one half an interval later; on the axes between.
@@ -101,7 +107,8 @@ class AidingModel {
       displace(state, state.q_nav_body * parameters_.dpc_lever_body);
       return state;
     };
-    const Vector<3> moved_body = truth.state.q_nav_body.conjugate() * displacement(array(time - half), array(time + half));
+    const Vector<3> moved_body =
+        truth.state.q_nav_body.conjugate() * displacement(array(time - half), array(time + half));
     Aiding reading;
     reading.array.sight_body = dpc_.sightBody();
     reading.array.velocity = Vector<2>(moved_body.y(), moved_body.dot(reading.array.sight_body)) / period_ + error;
@@ -129,22 +136,27 @@ class AidingModel {
 
 void addImuErrors(std::vector<ImuReading>& readings, const Parameters& p, std::uint64_t seed) {
   Random random(seed, kImuStream);
-  const Vector<3> gyro_constant = p.gyro_constant * gaussians(random), bias = p.accelerometer_constant * gaussians(random);
+  const Vector<3> gyro_constant = p.gyro_constant * gaussians(random),
+                  bias = p.accelerometer_constant * gaussians(random);
   Markov drift(random);
   for (std::size_t k = 1; k < readings.size(); ++k) {
     const double T = secondsBetween(readings[k - 1].stamp, readings[k].stamp);
-    readings[k].rate_body += gyro_constant + p.gyro_markov * drift.step(T, p.gyro_time, random) + p.angle_random_walk / std::sqrt(T) * gaussians(random);
+    readings[k].rate_body += gyro_constant + p.gyro_markov * drift.step(T, p.gyro_time, random) +
+                             p.angle_random_walk / std::sqrt(T) * gaussians(random);
     readings[k].force_body += bias + p.velocity_random_walk / std::sqrt(T) * gaussians(random);
   }
 }
 
-AidingSource::AidingSource(const Scenario::Readings& readings, Sensor sensor, std::uint64_t seed) : readings_(readings), sensor_(sensor) {
+AidingSource::AidingSource(const Scenario::Readings& readings, Sensor sensor, std::uint64_t seed)
+    : readings_(readings), sensor_(sensor) {
   const auto first = kRowStream + 4 * static_cast<std::uint64_t>(sensor);
   for (int row = 0; row < rowsOf(sensor); ++row)
-    rows_.emplace_back(readings_.noise, seed, first + static_cast<std::uint64_t>(row), kSpellStream + static_cast<std::uint64_t>(sensor));
+    rows_.emplace_back(readings_.noise, seed, first + static_cast<std::uint64_t>(row),
+                       kSpellStream + static_cast<std::uint64_t>(sensor));
 }
 
-void AidingSource::read(double time, const std::function<Aiding(const Vector<3>&)>& make, std::vector<LabelledAiding>& all) {
+void AidingSource::read(double time, const std::function<Aiding(const Vector<3>&)>& make,
+                        std::vector<LabelledAiding>& all) {
   LabelledAiding labelled;
   Vector<3> noise = Vector<3>::Zero();
   bool missing = false, frozen = false;
@@ -167,7 +179,8 @@ void AidingSource::read(double time, const std::function<Aiding(const Vector<3>&
 }
 
 void sortByStamp(std::vector<LabelledAiding>& aiding) {
-  std::stable_sort(aiding.begin(), aiding.end(), [](const LabelledAiding& a, const LabelledAiding& b) { return a.reading.stamp < b.reading.stamp; });
+  std::stable_sort(aiding.begin(), aiding.end(),
+                   [](const LabelledAiding& a, const LabelledAiding& b) { return a.reading.stamp < b.reading.stamp; });
 }
 
 std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, double duration) {

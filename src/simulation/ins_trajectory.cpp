@@ -14,9 +14,10 @@
 namespace sas_motion::ins {
 namespace {
 
-constexpr double kNode = 0.25;                                                      // [s]
-const std::array<double, 3> kAbscissa{-0.7745966692414834, 0, 0.7745966692414834};  // Gauss-Legendre of degree 5 on [-1, 1]
-constexpr std::array<double, 3> kWeight{5.0 / 18, 8.0 / 18, 5.0 / 18};              // over the interval's length
+constexpr double kNode = 0.25;  // [s]
+const std::array<double, 3> kAbscissa{-0.7745966692414834, 0,
+                                      0.7745966692414834};              // Gauss-Legendre of degree 5 on [-1, 1]
+constexpr std::array<double, 3> kWeight{5.0 / 18, 8.0 / 18, 5.0 / 18};  // over the interval's length
 
 /// The mean of a function over an interval.
 template <class Function>
@@ -41,12 +42,14 @@ double checked(const char* name, double value) {
 }  // namespace
 
 Vector<3> TruthSample::rateBody() const {
-  const Vector<3> nav = earth::rotationRate(state.latitude) + earth::transportRate(state.latitude, state.height, state.velocity_nav);
+  const Vector<3> nav =
+      earth::rotationRate(state.latitude) + earth::transportRate(state.latitude, state.height, state.velocity_nav);
   return rate_nav_body + state.q_nav_body.conjugate() * nav;
 }
 
 Vector<3> TruthSample::forceBody() const {
-  const Vector<3> rate = 2 * earth::rotationRate(state.latitude) + earth::transportRate(state.latitude, state.height, state.velocity_nav);
+  const Vector<3> rate =
+      2 * earth::rotationRate(state.latitude) + earth::transportRate(state.latitude, state.height, state.velocity_nav);
   const Vector<3> up(0, 0, earth::gravity(state.latitude, state.height));
   return state.q_nav_body.conjugate() * (acceleration_nav + rate.cross(state.velocity_nav) + up);
 }
@@ -55,7 +58,8 @@ Trajectory::Trajectory(const Track& track, double duration)
     : track_(track),
       line_time_(checked("line_length", track.line_length) / checked("speed", track.speed)),
       turn_time_(15.0 / 8 * kPi / checked("turn_rate", track.turn_rate)) {
-  for (const Wave* wave : {&track.pitch, &track.roll, &track.yaw, &track.heave, &track.sway}) checked("period", wave->period);
+  for (const Wave* wave : {&track.pitch, &track.roll, &track.yaw, &track.heave, &track.sway})
+    checked("period", wave->period);
   nodes_.push_back(Vector<3>::Zero());
   for (double begin = 0; begin < duration + 1; begin = kNode * static_cast<double>(nodes_.size() - 1))
     nodes_.push_back(nodes_.back() + way(begin, begin + kNode));
@@ -74,8 +78,10 @@ Trajectory::Direction Trajectory::direction(double time) const {
   const auto [angle, rate] = course(time);
   const Vector<3> none = Vector<3>::Zero(), yaw = track_.along_bow ? swing(track_.yaw, time) : none,
                   pitch = track_.along_bow ? swing(track_.pitch, time) : none;
-  const double s = std::sin(angle + yaw(0)), c = std::cos(angle + yaw(0)), sp = std::sin(pitch(0)), cp = std::cos(pitch(0));
-  return {{cp * s, cp * c, sp}, (rate + yaw(1)) * Vector<3>(cp * c, -cp * s, 0) + pitch(1) * Vector<3>(-sp * s, -sp * c, cp)};
+  const double s = std::sin(angle + yaw(0)), c = std::cos(angle + yaw(0)), sp = std::sin(pitch(0)),
+               cp = std::cos(pitch(0));
+  return {{cp * s, cp * c, sp},
+          (rate + yaw(1)) * Vector<3>(cp * c, -cp * s, 0) + pitch(1) * Vector<3>(-sp * s, -sp * c, cp)};
 }
 
 Vector<3> Trajectory::way(double begin, double end) const {
@@ -108,14 +114,18 @@ TruthSample Trajectory::at(double time) const {
 
   const auto R = earth::radii(state.latitude, state.height), R_L = earth::radiiByLatitude(state.latitude);
   const double cL = std::cos(state.latitude), sL = std::sin(state.latitude);
-  const double L1 = per_north * flat_rate.y(), L2 = per_north * flat_second.y(), lon1 = per_east * flat_rate.x(), lon2 = per_east * flat_second.x();
+  const double L1 = per_north * flat_rate.y(), L2 = per_north * flat_second.y(), lon1 = per_east * flat_rate.x(),
+               lon2 = per_east * flat_second.x();
   state.velocity_nav << R.N * cL * lon1, R.M * L1, up(1);
-  truth.acceleration_nav << (R_L.N * L1 + up(1)) * cL * lon1 - R.N * sL * L1 * lon1 + R.N * cL * lon2, (R_L.M * L1 + up(1)) * L1 + R.M * L2, up(2);
+  truth.acceleration_nav << (R_L.N * L1 + up(1)) * cL * lon1 - R.N * sL * L1 * lon1 + R.N * cL * lon2,
+      (R_L.M * L1 + up(1)) * L1 + R.M * L2, up(2);
 
   const Vector<3> pitch = swing(track_.pitch, time), roll = swing(track_.roll, time);
-  const double heading_rate = rate + yaw(1), sr = std::sin(roll(0)), cr = std::cos(roll(0)), sp = std::sin(pitch(0)), cp = std::cos(pitch(0));
+  const double heading_rate = rate + yaw(1), sr = std::sin(roll(0)), cr = std::cos(roll(0)), sp = std::sin(pitch(0)),
+               cp = std::cos(pitch(0));
   state.q_nav_body = Eigen::Quaterniond(rotationOf({pitch(0), roll(0), angle + yaw(0)}));
-  truth.rate_nav_body << pitch(1) * cr + heading_rate * sr * cp, roll(1) - heading_rate * sp, pitch(1) * sr - heading_rate * cr * cp;  // (0.2)
+  truth.rate_nav_body << pitch(1) * cr + heading_rate * sr * cp, roll(1) - heading_rate * sp,
+      pitch(1) * sr - heading_rate * cr * cp;  // (0.2)
   return truth;
 }
 

@@ -28,9 +28,12 @@ struct Form {
 };
 
 const std::vector<Form>& forms() {
-  static const Parameter epsilon{"epsilon", &NoiseLaw::epsilon, {0, 1}}, size{"K", &NoiseLaw::K, {1, 1e6}}, bias_size{"K", &NoiseLaw::K, {0, 1e6}};
-  static const Parameter rate{"rate", &NoiseLaw::rate, {0, 1e3}, "/s"}, length{"length", &NoiseLaw::length, {0, 1e6}, " s"};
-  static const Parameter epoch{"epoch", &NoiseLaw::epoch, {0, 1e6}, " s", false}, probability{"probability", &NoiseLaw::probability, {0, 1}};
+  static const Parameter epsilon{"epsilon", &NoiseLaw::epsilon, {0, 1}}, size{"K", &NoiseLaw::K, {1, 1e6}},
+      bias_size{"K", &NoiseLaw::K, {0, 1e6}};
+  static const Parameter rate{"rate", &NoiseLaw::rate, {0, 1e3}, "/s"},
+      length{"length", &NoiseLaw::length, {0, 1e6}, " s"};
+  static const Parameter epoch{"epoch", &NoiseLaw::epoch, {0, 1e6}, " s", false},
+      probability{"probability", &NoiseLaw::probability, {0, 1}};
   static const Parameter t0{"t0", &NoiseLaw::t0, {0, 1e7}, " s"}, t1{"t1", &NoiseLaw::t1, {0, 1e7}, " s", false};
   static const std::vector<Form> all{
       {Kind::Gaussian, "gaussian", true, true, {}},
@@ -49,8 +52,16 @@ const std::vector<Form>& forms() {
         {"length", &NoiseLaw::length, {0, 1e6}, " s", false},
         {"probability", &NoiseLaw::probability, {0, 1}, "", false}}},
       {Kind::Multipath, "multipath", true, false, {probability, {"mean", &NoiseLaw::mean, {kTiny, 1e6}}}},
-      {Kind::Correlated, "correlated", true, false, {{"time_constant", &NoiseLaw::time_constant, {kTiny, 1e7}, " s"}, {"share", &NoiseLaw::share, {0, 0.999}}}},
-      {Kind::Varying, "varying", true, false, {{"period", &NoiseLaw::period, {kTiny, 1e7}, " s"}, {"factor", &NoiseLaw::factor, {kTiny, 1e6}}}},
+      {Kind::Correlated,
+       "correlated",
+       true,
+       false,
+       {{"time_constant", &NoiseLaw::time_constant, {kTiny, 1e7}, " s"}, {"share", &NoiseLaw::share, {0, 0.999}}}},
+      {Kind::Varying,
+       "varying",
+       true,
+       false,
+       {{"period", &NoiseLaw::period, {kTiny, 1e7}, " s"}, {"factor", &NoiseLaw::factor, {kTiny, 1e6}}}},
       {Kind::Quantised, "quantised", true, false, {{"quantum", &NoiseLaw::quantum, {0, 1e6}}}},
       {Kind::Manoeuvre, "manoeuvre", false, true, {rate, length, size}},
   };
@@ -80,7 +91,8 @@ NoiseLaw NoiseLaw::read(YamlSection yaml, NoiseUse use) {
 std::string NoiseLaw::name() const {
   const NoiseLaw plain;
   std::vector<std::string> values;
-  const auto form = std::find_if(forms().rbegin(), forms().rend(), [&](const Form& f) { return f.kind == kind; });  // a process's form has all keys
+  const auto form = std::find_if(forms().rbegin(), forms().rend(),
+                                 [&](const Form& f) { return f.kind == kind; });  // a process's form has all keys
   for (const auto& [key, value, range, unit, named] : form->parameters)
     if (named || this->*value != plain.*value) values.push_back(fmt::format("{:g}{}", this->*value, unit));
   return values.empty() ? form->name : fmt::format("{}({})", form->name, fmt::join(values, ","));

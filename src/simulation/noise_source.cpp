@@ -31,9 +31,13 @@ bool Spells::on(const NoiseLaw& law, double time, double elapsed, double dice) {
   return on_ = time < until_;
 }
 
-double varyingSigma(const NoiseLaw& law, double time) { return 1 + (law.factor - 1) * 0.5 * (1 - std::cos(2 * kPi * time / law.period)); }
+double varyingSigma(const NoiseLaw& law, double time) {
+  return 1 + (law.factor - 1) * 0.5 * (1 - std::cos(2 * kPi * time / law.period));
+}
 
-NoiseSource::NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t stream, std::optional<std::uint64_t> spell_stream) : random_(seed, stream) {
+NoiseSource::NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t stream,
+                         std::optional<std::uint64_t> spell_stream)
+    : random_(seed, stream) {
   for (const auto& law : mix.laws) {
     const std::uint64_t spell = spell_stream.value_or(stream + 500'000) + parts_.size();
     Part part{law, Random(seed, stream + 1000 * (parts_.size() + 1)), Random(seed, spell), {}, 0};
@@ -45,7 +49,8 @@ NoiseSource::NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t 
 NoiseSample NoiseSource::draw(double time) {
   NoiseSample sample;
   sample.value = random_.gaussian();
-  const double dice = random_.uniform();  // the first law's; it stays in this stream, so that one law alone gives the numbers it always gave
+  const double dice = random_.uniform();  // the first law's; it stays in this stream, so that one law alone gives the
+                                          // numbers it always gave
   const double elapsed = time - last_time_;
   last_time_ = time;
   for (auto& part : parts_) part.apply(sample, time, elapsed, &part == &parts_.front() ? dice : part.random.uniform());
@@ -80,7 +85,9 @@ void NoiseSource::Part::apply(NoiseSample& sample, double time, double elapsed, 
       sample.frozen |= spells.on(law, time, elapsed, spell_random.uniform());
       if (sample.frozen) shift(sample, 0);
       return;
-    case NoiseLaw::Kind::Dropout: sample.missing |= spells.on(law, time, elapsed, spell_random.uniform()) || random.bernoulli(law.probability); return;
+    case NoiseLaw::Kind::Dropout:
+      sample.missing |= spells.on(law, time, elapsed, spell_random.uniform()) || random.bernoulli(law.probability);
+      return;
     case NoiseLaw::Kind::Multipath:
       if (dice < law.probability) shift(sample, law.mean * random.exponential());
       return;

@@ -10,7 +10,8 @@
 namespace sas_motion {
 
 ProcessNoise::ProcessNoise(const NoiseMix& mix, int states, std::uint64_t seed, std::uint64_t stream) {
-  if (states > kMostStates) throw std::invalid_argument(fmt::format("ProcessNoise: states is {} but must be at most {}", states, kMostStates));
+  if (states > kMostStates)
+    throw std::invalid_argument(fmt::format("ProcessNoise: states is {} but must be at most {}", states, kMostStates));
   NoiseMix own;
   for (const auto& law : mix.laws)
     if (law.kind == NoiseLaw::Kind::Manoeuvre || law.epoch > 0)
@@ -22,7 +23,8 @@ ProcessNoise::ProcessNoise(const NoiseMix& mix, int states, std::uint64_t seed, 
 
 bool ProcessNoise::Common::on(double time, double elapsed) {
   if (law.kind == NoiseLaw::Kind::Manoeuvre) return spells.on(law, time, elapsed, random.uniform());
-  const long now = std::lround(std::ceil(time / law.epoch - 1e-9)) - 1;  // epoch k is the time above k `epoch`, up to and with its end
+  const long now = std::lround(std::ceil(time / law.epoch - 1e-9)) -
+                   1;  // epoch k is the time above k `epoch`, up to and with its end
   for (; epoch < now; ++epoch) large = random.bernoulli(law.epsilon);
   return large;
 }

@@ -14,7 +14,8 @@ namespace {
 
 void requireMultiple(const YamlSection& yaml, const std::string& key, double seconds, double step) {
   const double steps = seconds / step;
-  if (std::abs(steps - std::round(steps)) > 1e-6) yaml.fail(key, fmt::format("gives {} s, which is no multiple of step, {} s", seconds, step));
+  if (std::abs(steps - std::round(steps)) > 1e-6)
+    yaml.fail(key, fmt::format("gives {} s, which is no multiple of step, {} s", seconds, step));
 }
 
 void readSensor(YamlSection yaml, Sensor sensor, double step, SimulatedSensor& options) {
@@ -34,7 +35,8 @@ void readSensor(YamlSection yaml, Sensor sensor, double step, SimulatedSensor& o
 void readTruth(YamlSection yaml, Scenario& scenario) {
   std::string kind = "random_walk";
   yaml.text("kind", kind);
-  if (kind != "random_walk" && kind != "survey") yaml.fail("kind", fmt::format("is '{}' but must be random_walk or survey", kind));
+  if (kind != "random_walk" && kind != "survey")
+    yaml.fail("kind", fmt::format("is '{}' but must be random_walk or survey", kind));
   scenario.kind = kind == "survey" ? Scenario::Kind::Survey : Scenario::Kind::RandomWalk;
   yaml.angle("heading_deg", scenario.heading, {-360, 360});
   yaml.number("speed", scenario.speed, {0, 50});

@@ -8,7 +8,13 @@
 namespace sas_motion::towfish {
 namespace {
 
-enum Stream : std::uint64_t { kProcessStream = 100, kSensorStream = 200, kCurrentStream = 300, kWaveStream = 400, kSpellStream = 1'000'000 };
+enum Stream : std::uint64_t {
+  kProcessStream = 100,
+  kSensorStream = 200,
+  kCurrentStream = 300,
+  kWaveStream = 400,
+  kSpellStream = 1'000'000
+};
 
 /// Three waves near one period, of total standard deviation 1, and their rate of change.
 struct Waves {
@@ -26,7 +32,10 @@ struct Waves {
 }  // namespace
 
 Simulator::Simulator(const Scenario& scenario, std::uint64_t seed)
-    : scenario_(scenario), model_(scenario.motion), process_(scenario.process, kStates, seed, kProcessStream), current_noise_(seed, kCurrentStream) {
+    : scenario_(scenario),
+      model_(scenario.motion),
+      process_(scenario.process, kStates, seed, kProcessStream),
+      current_noise_(seed, kCurrentStream) {
   for (std::uint64_t i = 0; i < 2 * scenario.sensors.size(); ++i)
     sensor_.emplace_back(scenario.sensors[i / 2].noise, seed, kSensorStream + i, kSpellStream + 10 * (i / 2));
   Random waves(seed, kWaveStream);
@@ -68,15 +77,19 @@ void Simulator::moveRandomWalk() {
 void Simulator::moveCurrent() {
   const double decay = std::exp(-scenario_.step / scenario_.motion.current_time_constant);
   const double drive = scenario_.motion.current_sigma * std::sqrt(1 - decay * decay);
-  for (int i = 0; i < 2; ++i) current_(i) = scenario_.current(i) + decay * (current_(i) - scenario_.current(i)) + drive * current_noise_.gaussian();
+  for (int i = 0; i < 2; ++i)
+    current_(i) =
+        scenario_.current(i) + decay * (current_(i) - scenario_.current(i)) + drive * current_noise_.gaussian();
 }
 
 void Simulator::takeSurveyState(double course_rate) {
   const double now = time();
   const Waves yaw(now, scenario_.yaw_period, phases_), surge(now, 1.7 * scenario_.yaw_period, phases_);
   Vector<2> current = current_;
-  if (scenario_.front.time >= 0) current += scenario_.front.change * 0.5 * (1 + std::tanh(2 * (now - scenario_.front.time) / scenario_.front.width));
-  truth_.state.tail<4>() << current, wrapAngle(course_ + scenario_.yaw_sigma * yaw.value), scenario_.speed + scenario_.surge_sigma * surge.value;
+  if (scenario_.front.time >= 0)
+    current += scenario_.front.change * 0.5 * (1 + std::tanh(2 * (now - scenario_.front.time) / scenario_.front.width));
+  truth_.state.tail<4>() << current, wrapAngle(course_ + scenario_.yaw_sigma * yaw.value),
+      scenario_.speed + scenario_.surge_sigma * surge.value;
   truth_.turn_rate = course_rate + scenario_.yaw_sigma * yaw.rate;
 }
 
@@ -106,7 +119,8 @@ void Simulator::moveSurvey() {
   const StateVector last = truth_.state;
   takeSurveyState(course_rate);
   StateVector& x = truth_.state;
-  const double heading = last(kHeading) + 0.5 * wrapAngle(x(kHeading) - last(kHeading)), speed = 0.5 * (last(kSpeed) + x(kSpeed));
+  const double heading = last(kHeading) + 0.5 * wrapAngle(x(kHeading) - last(kHeading)),
+               speed = 0.5 * (last(kSpeed) + x(kSpeed));
   x(kNorth) += scenario_.step * (0.5 * (last(kCurrentNorth) + x(kCurrentNorth)) + speed * std::cos(heading));
   x(kEast) += scenario_.step * (0.5 * (last(kCurrentEast) + x(kCurrentEast)) + speed * std::sin(heading));
 }
@@ -117,7 +131,8 @@ void Simulator::measure() {
     const auto sensor = static_cast<Sensor>(i);
     const SimulatedSensor& options = scenario_.sensor(sensor);
     if (options.rate <= 0) continue;
-    const long every = std::lround(1 / (options.rate * scenario_.step)), offset = std::lround(options.phase / scenario_.step);
+    const long every = std::lround(1 / (options.rate * scenario_.step)),
+               offset = std::lround(options.phase / scenario_.step);
     if (step_ < offset || (step_ - offset) % every != 0) continue;
     LabelledMeasurement labelled;
     Measurement& z = labelled.z;

@@ -32,7 +32,8 @@ NavigationState wrongStart(const NavigationState& truth, const Scenario& scenari
 /// The errors of one DVL: offset and drift angle wander, the scale stays. (B.4)
 class Dvl {
  public:
-  Dvl(const Parameters& p, double period, std::uint64_t seed) : p_(p), period_(period), random_(seed, kDvlStream), errors_(Vector<kPaperStates>::Zero()) {
+  Dvl(const Parameters& p, double period, std::uint64_t seed)
+      : p_(p), period_(period), random_(seed, kDvlStream), errors_(Vector<kPaperStates>::Zero()) {
     errors_(kDvlOffset) = p.dvl_offset * random_.gaussian();
     errors_(kDvlScale) = p.dvl_scale * random_.gaussian();
     errors_(kDvlAngle) = p.dvl_angle * random_.gaussian();
@@ -43,7 +44,8 @@ class Dvl {
     wander(errors_(kDvlAngle), p_.dvl_angle, p_.dvl_angle_time);
     const Vector<3> turning_body = ins::rateOverGround(truth.state, truth.rateBody()).cross(p_.dvl_lever_body);
     ins::Aiding reading;
-    reading.velocity_body = View<kPaperStates>(truth.state).dvl(errors_, turning_body) + p_.dvl_white.cwiseProduct(noise);
+    reading.velocity_body =
+        View<kPaperStates>(truth.state).dvl(errors_, turning_body) + p_.dvl_white.cwiseProduct(noise);
     reading.variance = p_.dvl_white.cwiseAbs2();
     return reading;
   }
@@ -62,8 +64,8 @@ class Dvl {
 
 /// Appends the readings of one sensor; `make(truth, noise)` reads it.
 template <class Make>
-void readAlong(const ins::Trajectory& trajectory, double duration, const ins::Scenario::Readings& readings, ins::Sensor sensor, std::uint64_t seed, Make make,
-               std::vector<ins::LabelledAiding>& all) {
+void readAlong(const ins::Trajectory& trajectory, double duration, const ins::Scenario::Readings& readings,
+               ins::Sensor sensor, std::uint64_t seed, Make make, std::vector<ins::LabelledAiding>& all) {
   ins::AidingSource source(readings, sensor, seed);
   for (long k = 1; static_cast<double>(k) / readings.rate <= duration + 1e-9; ++k) {
     const double time = static_cast<double>(k) / readings.rate;

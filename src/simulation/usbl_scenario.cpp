@@ -16,7 +16,8 @@ void readTrack(YamlSection yaml, Track& track) {
   std::string kind = kinds[static_cast<std::size_t>(track.kind)];
   yaml.text("kind", kind);
   const auto found = std::find(kinds.begin(), kinds.end(), kind);
-  if (found == kinds.end()) yaml.fail("kind", fmt::format("is '{}' but must be figure_eight, circle or waypoints", kind));
+  if (found == kinds.end())
+    yaml.fail("kind", fmt::format("is '{}' but must be figure_eight, circle or waypoints", kind));
   track.kind = static_cast<Track::Kind>(found - kinds.begin());
   readVector<2>(yaml, "centre", track.centre);
   yaml.number("radius", track.radius, {1, 1e5});
@@ -29,7 +30,8 @@ void readTrack(YamlSection yaml, Track& track) {
     item.finish();
     track.waypoints.push_back(point);
   }
-  if (track.kind == Track::Kind::Waypoints && track.waypoints.size() < 2) yaml.fail("waypoints", "must list at least two points");
+  if (track.kind == Track::Kind::Waypoints && track.waypoints.size() < 2)
+    yaml.fail("waypoints", "must list at least two points");
   yaml.finish();
 }
 

@@ -15,12 +15,14 @@ constexpr double kSteer = 0.05;  // [s] between changes of the course on the way
 /// Round a circle clockwise, or anticlockwise for a negative radius; the course is the tangent.
 Pose onCircle(const Vector<2>& centre, double radius, double bearing_from_centre) {
   Pose pose;
-  pose.position_map << centre(0) + std::abs(radius) * std::sin(bearing_from_centre), centre(1) + std::abs(radius) * std::cos(bearing_from_centre), 0;
+  pose.position_map << centre(0) + std::abs(radius) * std::sin(bearing_from_centre),
+      centre(1) + std::abs(radius) * std::cos(bearing_from_centre), 0;
   pose.attitude.heading = wrapAngle(bearing_from_centre + std::copysign(kPi / 2, radius));
   return pose;
 }
 
-/// Two circles that touch in the centre, sailed in turns: the first clockwise with its centre to starboard of the crossing's heading.
+/// Two circles that touch in the centre, sailed in turns: the first clockwise with its centre to starboard of the
+/// crossing's heading.
 Pose onFigureEight(const Track& track, double distance) {
   const double round = 2 * kPi * track.radius, along = std::fmod(distance, 2 * round);
   const double side = along < round ? 1 : -1, angle = std::fmod(along, round) / track.radius;
@@ -31,7 +33,9 @@ Pose onFigureEight(const Track& track, double distance) {
 
 }  // namespace
 
-Vector<3> transponderFrom(const Geodetic& position, const Geodetic& transponder) { return LocalFrame(position).position_enu(transponder); }
+Vector<3> transponderFrom(const Geodetic& position, const Geodetic& transponder) {
+  return LocalFrame(position).position_enu(transponder);
+}
 
 Vessel::Vessel(const Scenario& scenario) : scenario_(scenario) {
   const auto& waypoints = scenario.track.waypoints;
@@ -41,7 +45,8 @@ Vessel::Vessel(const Scenario& scenario) : scenario_(scenario) {
   pose_.attitude.heading = std::atan2(leg(0), leg(1));
 }
 
-/// Steers at each moment towards the next waypoint, as fast as the turn rate allows; a waypoint is reached at the radius of a turn.
+/// Steers at each moment towards the next waypoint, as fast as the turn rate allows; a waypoint is reached at the
+/// radius of a turn.
 void Vessel::followWaypoints(double time) {
   const Track& track = scenario_.track;
   const double reached = 1.5 * track.speed / track.turn_rate;
@@ -64,7 +69,9 @@ Pose Vessel::at(double time) {
   const Track& track = scenario_.track;
   Pose pose;
   switch (track.kind) {
-    case Track::Kind::Circle: pose = onCircle(track.centre, track.radius, track.heading + track.speed * time / track.radius); break;
+    case Track::Kind::Circle:
+      pose = onCircle(track.centre, track.radius, track.heading + track.speed * time / track.radius);
+      break;
     case Track::Kind::FigureEight: pose = onFigureEight(track, track.speed * time); break;
     case Track::Kind::Waypoints:
       followWaypoints(time);
@@ -82,7 +89,8 @@ Simulator::Simulator(const Scenario& scenario, std::uint64_t seed)
       transponder_(frame_.geodetic(scenario.transponder_map)),
       attitude_noise_(seed, kAttitudeStream),
       gnss_noise_(seed, kGnssStream) {
-  for (std::uint64_t i = 0; i < kChannels; ++i) channels_.emplace_back(scenario.noise[i], seed, kChannelStream + i, kSpellStream);
+  for (std::uint64_t i = 0; i < kChannels; ++i)
+    channels_.emplace_back(scenario.noise[i], seed, kChannelStream + i, kSpellStream);
 }
 
 std::optional<LabelledPing> Simulator::ping(double time, const Pose& truth) {
@@ -111,7 +119,8 @@ Pose Simulator::measuredAttitude(const Pose& truth) {
   Pose measured = truth;
   measured.attitude.pitch += scenario_.attitude_sigma * attitude_noise_.gaussian();
   measured.attitude.roll += scenario_.attitude_sigma * attitude_noise_.gaussian();
-  measured.attitude.heading = wrapAngle(measured.attitude.heading + scenario_.heading_sigma * attitude_noise_.gaussian());
+  measured.attitude.heading =
+      wrapAngle(measured.attitude.heading + scenario_.heading_sigma * attitude_noise_.gaussian());
   return measured;
 }
 

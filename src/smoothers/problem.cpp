@@ -13,7 +13,9 @@ namespace sas_motion::towfish {
 namespace {
 
 /// Half the squared Mahalanobis length of a residual.
-double halfSquared(const Matrix<kStates>& covariance, const StateVector& residual) { return 0.5 * residual.dot(covariance.llt().solve(residual)); }
+double halfSquared(const Matrix<kStates>& covariance, const StateVector& residual) {
+  return 0.5 * residual.dot(covariance.llt().solve(residual));
+}
 
 /// Where the measurements start to tell position and heading, and the belief there.
 struct Start {
@@ -23,15 +25,18 @@ struct Start {
 
 std::optional<Start> findStart(const std::vector<Measurement>& measurements, const Config& config) {
   const auto has = [&](std::size_t from, std::size_t to, Sensor sensor) {
-    return std::any_of(measurements.begin() + static_cast<std::ptrdiff_t>(from), measurements.begin() + static_cast<std::ptrdiff_t>(to),
+    return std::any_of(measurements.begin() + static_cast<std::ptrdiff_t>(from),
+                       measurements.begin() + static_cast<std::ptrdiff_t>(to),
                        [&](const Measurement& z) { return z.sensor == sensor; });
   };
   for (std::size_t first = 0, end = 0; first < measurements.size(); ++first) {
     const Stamp last = measurements[first].stamp + stampFromSeconds(config.start.window);
     while (end < measurements.size() && measurements[end].stamp <= last) ++end;
     if (!has(first, end, Sensor::Position) || !has(first, end, Sensor::Heading)) continue;
-    const std::vector<Measurement> window(measurements.begin() + static_cast<std::ptrdiff_t>(first), measurements.begin() + static_cast<std::ptrdiff_t>(end));
-    if (const auto prior = startingBelief(measurements[first].stamp, window, config.start, config.model.current_sigma)) return Start{first, *prior};
+    const std::vector<Measurement> window(measurements.begin() + static_cast<std::ptrdiff_t>(first),
+                                          measurements.begin() + static_cast<std::ptrdiff_t>(end));
+    if (const auto prior = startingBelief(measurements[first].stamp, window, config.start, config.model.current_sigma))
+      return Start{first, *prior};
   }
   return std::nullopt;
 }
@@ -63,7 +68,8 @@ std::optional<SmoothingProblem> buildProblem(const std::vector<Measurement>& mea
       input.take(z);
     } else {
       problem.measurements.push_back(z);
-      problem.model.linearize(z, belief.mean, [&](const auto& linear) { belief = filter.update(belief, linear).belief; });
+      problem.model.linearize(z, belief.mean,
+                              [&](const auto& linear) { belief = filter.update(belief, linear).belief; });
       problem.initial.back() = belief.mean;
     }
   }
@@ -80,7 +86,8 @@ double cost(const SmoothingProblem& problem, const Loss& loss, const std::vector
     }
     for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j)
       problem.model.linearize(problem.measurements[j], states[k], [&](const auto& z) {
-        for (int row = 0; row < z.innovation.rows(); ++row) sum += loss.rho(z.innovation(row) / std::sqrt(z.R(row, row)));
+        for (int row = 0; row < z.innovation.rows(); ++row)
+          sum += loss.rho(z.innovation(row) / std::sqrt(z.R(row, row)));
       });
   }
   return sum;
@@ -89,15 +96,18 @@ double cost(const SmoothingProblem& problem, const Loss& loss, const std::vector
 Vector<2> weightsAt(const Measurement& z, const StateVector& x, const Model& model, const Loss& loss) {
   Vector<2> weights = Vector<2>::Ones();
   model.linearize(z, x, [&](const auto& linear) {
-    for (int row = 0; row < linear.innovation.rows(); ++row) weights(row) = loss.weight(linear.innovation(row) / std::sqrt(linear.R(row, row)));
+    for (int row = 0; row < linear.innovation.rows(); ++row)
+      weights(row) = loss.weight(linear.innovation(row) / std::sqrt(linear.R(row, row)));
   });
   return weights;
 }
 
-std::vector<Vector<2>> weightsAt(const SmoothingProblem& problem, const Loss& loss, const std::vector<StateVector>& states) {
+std::vector<Vector<2>> weightsAt(const SmoothingProblem& problem, const Loss& loss,
+                                 const std::vector<StateVector>& states) {
   std::vector<Vector<2>> weights(problem.measurements.size());
   for (std::size_t k = 0; k < problem.nodes(); ++k)
-    for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j) weights[j] = weightsAt(problem.measurements[j], states[k], problem.model, loss);
+    for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j)
+      weights[j] = weightsAt(problem.measurements[j], states[k], problem.model, loss);
   return weights;
 }
 

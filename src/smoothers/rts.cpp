@@ -32,7 +32,8 @@ class Sweeper {
     for (const auto& Q : problem.Q) motion_root_.emplace_back(Q);
   }
 
-  /// Filters forward about the trajectory; returns the cost there. Offsets are relative to the trajectory, so no angle wraps.
+  /// Filters forward about the trajectory; returns the cost there. Offsets are relative to the trajectory, so no angle
+  /// wraps.
   double forward(const std::vector<StateVector>& trajectory) {
     Gaussian<kStates> belief{Model::difference(problem_.prior.mean, trajectory[0]), problem_.prior.covariance};
     double cost = 0.5 * belief.mean.dot(prior_root_.solve(belief.mean));
@@ -49,7 +50,8 @@ class Sweeper {
       }
       for (std::size_t j = problem_.first[k]; j < problem_.first[k + 1]; ++j)
         problem_.model.linearize(problem_.measurements[j], trajectory[k], [&](const auto& z) {
-          for (int i = 0; i < z.innovation.rows(); ++i) cost += fuse(z.innovation(i), z.H.row(i).transpose(), z.R(i, i), belief, rows_[row++]);
+          for (int i = 0; i < z.innovation.rows(); ++i)
+            cost += fuse(z.innovation(i), z.H.row(i).transpose(), z.R(i, i), belief, rows_[row++]);
         });
       nodes_[k].P = belief.covariance;
       nodes_[k].offset = belief.mean;
@@ -86,7 +88,8 @@ class Sweeper {
 
  private:
   /// One weighted scalar update of the offset's belief; returns its share of the cost.
-  double fuse(double residual, const StateVector& h, double variance, Gaussian<kStates>& belief, RowMemory& memory) const {
+  double fuse(double residual, const StateVector& h, double variance, Gaussian<kStates>& belief,
+              RowMemory& memory) const {
     const double whitened = residual / std::sqrt(variance);
     const double R = variance / std::max(loss_.weight(whitened), 1e-12);
     const StateVector Ph = belief.covariance * h;

@@ -38,7 +38,8 @@ json traceOf(const Estimated& e, Stamp begin) {
   return trace;
 }
 
-/// Over time, channel by channel: residuals over the estimated noise, that noise over the stated one, and the simulator's labels, where there are some.
+/// Over time, channel by channel: residuals over the estimated noise, that noise over the stated one, and the
+/// simulator's labels, where there are some.
 json residualsOf(const CalibrationResult& result, const Estimated& e) {
   const Comparison& comparison = result.comparison;
   const auto channels = channelNames(comparison.problem.model.mode());
@@ -52,7 +53,8 @@ json residualsOf(const CalibrationResult& result, const Estimated& e) {
       channel["residual"].push_back(has ? json(shortened(whitened(c))) : json());
       channel["noise"].push_back(shortened(e.noise[i](c)));
       if (!result.recording.outlier.empty())
-        channel["outlier"].push_back(label != result.recording.outlier.end() && label->second[static_cast<std::size_t>(c)]);
+        channel["outlier"].push_back(label != result.recording.outlier.end() &&
+                                     label->second[static_cast<std::size_t>(c)]);
     }
   }
   return columns;
@@ -83,7 +85,10 @@ json pingsOf(const CalibrationResult& result, Stamp begin) {
 std::string calibrationTrace(const CalibrationResult& result) {
   const Comparison& comparison = result.comparison;
   const Stamp begin = comparison.problem.pings.front().stamp;
-  json tree{{"schema", "sas_motion/calibration/1"}, {"bag", result.bag}, {"array", result.arrayFrame()}, {"mode", modeName(comparison.problem.model.mode())}};
+  json tree{{"schema", "sas_motion/calibration/1"},
+            {"bag", result.bag},
+            {"array", result.arrayFrame()},
+            {"mode", modeName(comparison.problem.model.mode())}};
   tree["observable"] = comparison.observability.observable;
   tree["trusted"] = comparison.trusted();
   tree["conclusion"] = result.conclusion();

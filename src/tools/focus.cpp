@@ -34,9 +34,11 @@ void drawFigures(const std::string& folder) {
   char* arguments[] = {first.data(), second.data(), nullptr};
   pid_t child = 0;
   int status = 1;
-  if (posix_spawn(&child, script.c_str(), nullptr, nullptr, arguments, environ) != 0 || waitpid(child, &status, 0) != child || status != 0)
-    throw std::runtime_error(
-        fmt::format("{}: the figures could not be drawn by {}; images and measures are there, --no-figures leaves figures out", folder, script));
+  if (posix_spawn(&child, script.c_str(), nullptr, nullptr, arguments, environ) != 0 ||
+      waitpid(child, &status, 0) != child || status != 0)
+    throw std::runtime_error(fmt::format(
+        "{}: the figures could not be drawn by {}; images and measures are there, --no-figures leaves figures out",
+        folder, script));
 }
 
 void run(const Options& options) {
@@ -52,7 +54,8 @@ void run(const Options& options) {
     FocusBench bench(result.settings, pings.times, pings.poses.front(), options.jobs);
     progress.advance(1);
     for (std::size_t i = 0; i < trajectories.size(); ++i) {
-      result.trajectories.push_back(focusAlong(bench, pings.poses[i], options.out, trajectories[i].name, options.autofocus));
+      result.trajectories.push_back(
+          focusAlong(bench, pings.poses[i], options.out, trajectories[i].name, options.autofocus));
       result.trajectories.back().topic = trajectories[i].topic;
       progress.advance(1);
     }
@@ -67,14 +70,18 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app(
-      "What a synthetic aperture sonar would see with each trajectory in a bag: echoes of a scene are simulated on truth/odometry and focused along truth and "
+      "What a synthetic aperture sonar would see with each trajectory in a bag: echoes of a scene are simulated on "
+      "truth/odometry and focused along truth and "
       "along "
-      "each NAME/odometry. Writes NAME.npy, NAME.json and NAME.png, the measures of all in focus.json, and the images beside each other in focus.png.",
+      "each NAME/odometry. Writes NAME.npy, NAME.json and NAME.png, the measures of all in focus.json, and the images "
+      "beside each other in focus.png.",
       "focus");
   app.add_option("BAG", options.bag, "bag with truth and estimates")->required();
   app.add_option("-o,--output", options.out, "folder for the results")->required();
-  app.add_option("--trajectory", options.trajectories, "topics or names to focus along beside truth (default: all named NAME/odometry)");
-  app.add_option("--config", options.config, "sonar, aperture, scene and image (YAML; default: as in config/focus.yaml)");
+  app.add_option("--trajectory", options.trajectories,
+                 "topics or names to focus along beside truth (default: all named NAME/odometry)");
+  app.add_option("--config", options.config,
+                 "sonar, aperture, scene and image (YAML; default: as in config/focus.yaml)");
   app.add_option("-j,--jobs", options.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
   app.add_flag("--autofocus", options.autofocus, "also the phase-gradient-autofocused image of each trajectory");
   app.add_flag("!--no-figures", options.figures, "write no PNG");

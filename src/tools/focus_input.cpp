@@ -40,16 +40,24 @@ std::set<std::string> odometryTopics(const BagReader& bag) {
   return topics;
 }
 
-bool isNamed(const std::string& topic) { return topic.size() > kLeaf.size() && topic.compare(topic.size() - kLeaf.size(), kLeaf.size(), kLeaf) == 0; }
+bool isNamed(const std::string& topic) {
+  return topic.size() > kLeaf.size() && topic.compare(topic.size() - kLeaf.size(), kLeaf.size(), kLeaf) == 0;
+}
 
 /// Truth first.
-std::vector<std::string> chosenTopics(const std::string& file, const std::set<std::string>& there, const std::vector<std::string>& wanted) {
-  if (!there.count(kTruth)) throw std::runtime_error(fmt::format("{}: no topic {}; an image needs the true track to be simulated on", file, kTruth));
+std::vector<std::string> chosenTopics(const std::string& file, const std::set<std::string>& there,
+                                      const std::vector<std::string>& wanted) {
+  if (!there.count(kTruth))
+    throw std::runtime_error(
+        fmt::format("{}: no topic {}; an image needs the true track to be simulated on", file, kTruth));
   std::vector<std::string> topics{kTruth};
-  if (wanted.empty()) std::copy_if(there.begin(), there.end(), std::back_inserter(topics), [](const auto& topic) { return isNamed(topic) && topic != kTruth; });
+  if (wanted.empty())
+    std::copy_if(there.begin(), there.end(), std::back_inserter(topics),
+                 [](const auto& topic) { return isNamed(topic) && topic != kTruth; });
   for (const auto& name : wanted) {
     const std::string bare = bareTopic(name), topic = there.count(bare) ? bare : bare + kLeaf;
-    if (!there.count(topic)) throw std::runtime_error(fmt::format("{}: no trajectory {}; there are {}", file, name, fmt::join(there, ", ")));
+    if (!there.count(topic))
+      throw std::runtime_error(fmt::format("{}: no trajectory {}; there are {}", file, name, fmt::join(there, ", ")));
     if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
   }
   return topics;
@@ -69,12 +77,14 @@ std::vector<RecordedTrajectory> named(const std::string& file, const std::vector
     trajectories.push_back({fileName(topic), topic, {}});
     if (!names.insert(trajectories.back().name).second)
       throw std::runtime_error(
-          fmt::format("{}: the files of {} would take another's name, {}; choose topics with --trajectory", file, topic, trajectories.back().name));
+          fmt::format("{}: the files of {} would take another's name, {}; choose topics with --trajectory", file, topic,
+                      trajectories.back().name));
   }
   return trajectories;
 }
 
-/// Where a fix of the truth and an odometry of the same stamp show that truth's frame has another origin than the estimates'.
+/// Where a fix of the truth and an odometry of the same stamp show that truth's frame has another origin than the
+/// estimates'.
 struct Origins {
   std::optional<LocalFrame> datum;
   std::map<Stamp, Geodetic> fixes;

@@ -17,8 +17,10 @@ struct FocusPings {
   std::vector<std::vector<imaging::PingPose>> poses;  ///< of each trajectory, in the frame of the aperture
 };
 
-/// Chooses the window and interpolates all trajectories, truth first, at its pings. Throws std::runtime_error: one sentence that names the bag, the key or the
-/// topic, where the window is outside the bag, a trajectory has a gap, or the sonar undersamples the aperture.
-FocusPings choosePings(const std::string& bag, const std::vector<RecordedTrajectory>& trajectories, const imaging::FocusSettings& settings);
+/// Chooses the window and interpolates all trajectories, truth first, at its pings. Throws std::runtime_error: one
+/// sentence that names the bag, the key or the topic, where the window is outside the bag, a trajectory has a gap, or
+/// the sonar undersamples the aperture.
+FocusPings choosePings(const std::string& bag, const std::vector<RecordedTrajectory>& trajectories,
+                       const imaging::FocusSettings& settings);
 
 }  // namespace sas_motion

@@ -18,9 +18,9 @@ using namespace ins;
 
 namespace {
 
-constexpr Stamp kStart = 1'600'000'000 * kNanosecondsPerSecond;                              // stamp of every scenario's beginning
-constexpr double kTruthRate = 50;                                                            // [1/s]
-constexpr double kUnstated = 1e6;                                                            // variance of what a message does not say
+constexpr Stamp kStart = 1'600'000'000 * kNanosecondsPerSecond;  // stamp of every scenario's beginning
+constexpr double kTruthRate = 50;                                // [1/s]
+constexpr double kUnstated = 1e6;                                // variance of what a message does not say
 constexpr std::array<const char*, kSensors> kFrames{"gnss_link", "dvl_link", "depth_link"};  // by Sensor
 
 Transform at(const Vector<3>& lever_body) {
@@ -46,7 +46,8 @@ InsRecorder::InsRecorder(const Scenario& scenario, std::uint64_t seed, BagOutput
 
 InsRecorder::InsRecorder(const sins::Scenario& scenario, std::uint64_t seed, BagOutput& bag)
     : InsRecorder(
-          withoutGps(scenario), [&](const Trajectory& trajectory) { return sins::simulate(scenario, trajectory, seed); }, false, bag) {}
+          withoutGps(scenario),
+          [&](const Trajectory& trajectory) { return sins::simulate(scenario, trajectory, seed); }, false, bag) {}
 
 InsRecorder::InsRecorder(const Scenario& scenario, const Simulate& simulate, bool with_gps, BagOutput& bag)
     : scenario_(scenario),
@@ -91,10 +92,13 @@ void InsRecorder::start() {
 
 void InsRecorder::transforms() {
   const ros::Time time = timeOf(kStart);
-  const auto of = [&](Sensor sensor, const Transform& T) { return stamped(settings_.base_frame, kFrames[static_cast<std::size_t>(sensor)], time, T); };
+  const auto of = [&](Sensor sensor, const Transform& T) {
+    return stamped(settings_.base_frame, kFrames[static_cast<std::size_t>(sensor)], time, T);
+  };
   tf2_msgs::TFMessage message;
-  message.transforms = {stamped(settings_.base_frame, "imu_link", time, Transform::Identity()), of(Sensor::Gps, at(scenario_.parameters.gps_lever_body)),
-                        of(Sensor::Dvl, T_base_dvl_), of(Sensor::Depth, at(scenario_.parameters.depth_lever_body))};
+  message.transforms = {stamped(settings_.base_frame, "imu_link", time, Transform::Identity()),
+                        of(Sensor::Gps, at(scenario_.parameters.gps_lever_body)), of(Sensor::Dvl, T_base_dvl_),
+                        of(Sensor::Depth, at(scenario_.parameters.depth_lever_body))};
   bag_.writeLatched("/tf_static", time, message);
 }
 
@@ -103,7 +107,8 @@ void InsRecorder::truth(double seconds) {
   Solution exact;
   exact.stamp = kStart + stampFromSeconds(seconds);
   exact.state = sample.state;
-  exact.rate_body = sample.rateBody() - sample.state.q_nav_body.conjugate() * earth::rotationRate(sample.state.latitude);
+  exact.rate_body =
+      sample.rateBody() - sample.state.q_nav_body.conjugate() * earth::rotationRate(sample.state.latitude);
   const ros::Time time = timeOf(exact.stamp);
   bag_.write("truth/odometry", time, odometryOf(exact, frame_, settings_));
   bag_.write("truth/fix", time, fixOf(exact, settings_));
@@ -121,12 +126,14 @@ void InsRecorder::inertial(const ImuReading& reading) {
   const Parameters& p = scenario_.parameters;
   sensor_msgs::Imu message;
   message.header = header(reading.stamp, "imu_link", imu_seq_);
-  const Eigen::Quaterniond attitude = attitude_error_ * trajectory_.at(secondsBetween(0, reading.stamp)).state.q_nav_body;
+  const Eigen::Quaterniond attitude =
+      attitude_error_ * trajectory_.at(secondsBetween(0, reading.stamp)).state.q_nav_body;
   message.orientation = orientationOf(attitude.toRotationMatrix());
   message.orientation_covariance = diagonal(squared(p.start_tilt), squared(p.start_tilt), squared(p.start_heading));
   set(message.angular_velocity, bodyFromRosBody().transpose() * reading.rate_body);
   set(message.linear_acceleration, bodyFromRosBody().transpose() * reading.force_body);
-  const double rate = squared(p.angle_random_walk) * scenario_.imu_rate, force = squared(p.velocity_random_walk) * scenario_.imu_rate;
+  const double rate = squared(p.angle_random_walk) * scenario_.imu_rate,
+               force = squared(p.velocity_random_walk) * scenario_.imu_rate;
   message.angular_velocity_covariance = diagonal(rate, rate, rate);
   message.linear_acceleration_covariance = diagonal(force, force, force);
   bag_.write(settings_.imu_topic, message.header.stamp, message);
@@ -162,7 +169,8 @@ void InsRecorder::velocity(const Vector<3>& velocity_nav, std_msgs::Header heade
   message.header = header;
   message.header.frame_id = settings_.map_frame;
   set(message.twist.twist.linear, velocity_nav);
-  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i < 3 ? squared(scenario_.parameters.start_velocity) : kUnstated;
+  for (std::size_t i = 0; i < 6; ++i)
+    message.twist.covariance[7 * i] = i < 3 ? squared(scenario_.parameters.start_velocity) : kUnstated;
   bag_.write("gnss/velocity", header.stamp, message);
 }
 
@@ -171,8 +179,10 @@ void InsRecorder::twist(const Aiding& reading, std_msgs::Header header) {
   message.header = header;
   const Matrix<3> C_dvl_body = T_base_dvl_.linear().transpose() * bodyFromRosBody().transpose();
   set(message.twist.twist.linear, C_dvl_body * reading.velocity_body);
-  const Vector<3> variance = C_dvl_body.cwiseAbs2() * reading.variance.value_or(scenario_.parameters.dvl_white.cwiseAbs2());
-  for (int i = 0; i < 6; ++i) message.twist.covariance[static_cast<std::size_t>(7 * i)] = i < 3 ? variance(i) : kUnstated;
+  const Vector<3> variance =
+      C_dvl_body.cwiseAbs2() * reading.variance.value_or(scenario_.parameters.dvl_white.cwiseAbs2());
+  for (int i = 0; i < 6; ++i)
+    message.twist.covariance[static_cast<std::size_t>(7 * i)] = i < 3 ? variance(i) : kUnstated;
   bag_.write(settings_.twist_topic, header.stamp, message);
 }
 
@@ -181,7 +191,8 @@ void InsRecorder::depth(const Aiding& reading, std_msgs::Header header) {
   message.header = header;
   message.pose.pose.position.z = reading.fix.height - settings_.estimation.surface;
   message.pose.pose.orientation.w = 1;
-  for (std::size_t i = 0; i < 6; ++i) message.pose.covariance[7 * i] = i == 2 ? squared(scenario_.parameters.depth_white) : kUnstated;
+  for (std::size_t i = 0; i < 6; ++i)
+    message.pose.covariance[7 * i] = i == 2 ? squared(scenario_.parameters.depth_white) : kUnstated;
   bag_.write(settings_.depth_topic, header.stamp, message);
 }
 

@@ -12,8 +12,9 @@
 
 namespace sas_motion {
 
-/// Turns what the simulator of a system with an INS gives into messages in a bag. The attitude that the inertial unit states is the true one with the errors
-/// of the start. The DVL sits 45 degrees turned, as many do. Where there is no GPS, a fix and a velocity say where the body starts and how fast.
+/// Turns what the simulator of a system with an INS gives into messages in a bag. The attitude that the inertial unit
+/// states is the true one with the errors of the start. The DVL sits 45 degrees turned, as many do. Where there is no
+/// GPS, a fix and a velocity say where the body starts and how fast.
 class InsRecorder {
  public:
   InsRecorder(const ins::Scenario& scenario, std::uint64_t seed, ros_side::BagOutput& bag);

@@ -13,12 +13,14 @@
 
 namespace sas_motion {
 
-/// Parses the arguments and runs a tool: exit status 0 on success, 1 with one plain sentence on standard error where `run` throws, 2 on
-/// wrong usage.
+/// Parses the arguments and runs a tool: exit status 0 on success, 1 with one plain sentence on standard error where
+/// `run` throws, 2 on wrong usage.
 inline int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& run) {
   try {
     std::vector<const char*> arguments(argv, argv + argc);
-    const auto of_roslaunch = [](const char* a) { return std::strncmp(a, "__", 2) == 0 && std::strstr(a, ":=") != nullptr; };  // __name:=, __log:=
+    const auto of_roslaunch = [](const char* a) {
+      return std::strncmp(a, "__", 2) == 0 && std::strstr(a, ":=") != nullptr;
+    };  // __name:=, __log:=
     arguments.erase(std::remove_if(arguments.begin(), arguments.end(), of_roslaunch), arguments.end());
     app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::ParseError& error) {

@@ -11,7 +11,11 @@
 namespace sas_motion {
 
 Progress::Progress(std::string title, double total, double data_seconds)
-    : title_(std::move(title)), total_(total), data_seconds_(data_seconds), terminal_(::isatty(STDERR_FILENO) == 1), begin_(std::chrono::steady_clock::now()) {}
+    : title_(std::move(title)),
+      total_(total),
+      data_seconds_(data_seconds),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      begin_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
   if (terminal_ && drawn_ >= 0) std::fputs("\n", stderr);
@@ -30,7 +34,8 @@ void Progress::advance(double amount) {
 void Progress::draw(double elapsed) {
   const double share = total_ > 0 ? std::clamp(done_ / total_, 0.0, 1.0) : 1;
   const int width = 30, filled = static_cast<int>(share * width);
-  std::string line = fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %", title_, "", filled, "", width - filled, 100 * share);
+  std::string line =
+      fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %", title_, "", filled, "", width - filled, 100 * share);
   if (data_seconds_ > 0 && elapsed > 0) line += fmt::format(", {:.0f} x real time", share * data_seconds_ / elapsed);
   if (share > 0.01) line += fmt::format(", {:.0f} s left  ", elapsed * (1 - share) / share);
   std::fputs(line.c_str(), stderr);

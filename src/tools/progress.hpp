@@ -9,8 +9,8 @@
 
 namespace sas_motion {
 
-/// A progress bar on standard error: share done, real-time factor (seconds of data a second) and time left. Silent where standard error
-/// is no terminal. Thread-safe.
+/// A progress bar on standard error: share done, real-time factor (seconds of data a second) and time left. Silent
+/// where standard error is no terminal. Thread-safe.
 class Progress {
  public:
   /// `total` in any unit; `data_seconds`, the duration of all the data, or 0 where that means nothing.

@@ -11,7 +11,8 @@
 /// Messages that the recorders of several systems write.
 namespace sas_motion {
 
-inline geometry_msgs::TransformStamped stamped(const std::string& parent, const std::string& child, ros::Time time, const ros_side::Transform& transform) {
+inline geometry_msgs::TransformStamped stamped(const std::string& parent, const std::string& child, ros::Time time,
+                                               const ros_side::Transform& transform) {
   geometry_msgs::TransformStamped message;
   message.header.stamp = time;
   message.header.frame_id = parent;

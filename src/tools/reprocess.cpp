@@ -46,17 +46,22 @@ json identity(const std::string& bag, const Options& options) {
 json toJson(const ReprocessReport& report) {
   json entry{{"messages", report.messages}, {"duration", report.duration}};
   for (const auto& [name, counts] : report.sensors)
-    entry["sensors"][name] = {{"messages", counts.messages}, {"unknown_frame", counts.unknown_frame}, {"unusable", counts.unusable}, {"lost", counts.lost}};
+    entry["sensors"][name] = {{"messages", counts.messages},
+                              {"unknown_frame", counts.unknown_frame},
+                              {"unusable", counts.unusable},
+                              {"lost", counts.lost}};
   for (const auto& [name, e] : report.estimators)
-    entry["results"][name] = {{"estimates", e.estimates},  {"accepted", e.verdicts[0]}, {"down_weighted", e.verdicts[1]},
-                              {"rejected", e.verdicts[2]}, {"stale", e.verdicts[3]},    {"invalid", e.verdicts[4]}};
+    entry["results"][name] = {{"estimates", e.estimates},       {"accepted", e.verdicts[0]},
+                              {"down_weighted", e.verdicts[1]}, {"rejected", e.verdicts[2]},
+                              {"stale", e.verdicts[3]},         {"invalid", e.verdicts[4]}};
   if (!report.remarks.empty()) entry["remarks"] = report.remarks;
   return entry;
 }
 
 json costOf(const ReprocessReport& report) {
   json cost;
-  for (const auto& [name, e] : report.estimators) cost[name] = {{"seconds", e.seconds}, {"measurements", e.measurements}, {"duration", report.duration}};
+  for (const auto& [name, e] : report.estimators)
+    cost[name] = {{"seconds", e.seconds}, {"measurements", e.measurements}, {"duration", report.duration}};
   return cost;
 }
 
@@ -70,15 +75,16 @@ void printReport(const ReprocessReport& report) {
     fmt::print("\n");
   }
   for (const auto& [name, e] : report.estimators)
-    fmt::print("  {:<14}{:>9} estimates, {} accepted, {} down-weighted, {} rejected, {} stale, {} invalid\n", name, e.estimates, e.verdicts[0], e.verdicts[1],
-               e.verdicts[2], e.verdicts[3], e.verdicts[4]);
+    fmt::print("  {:<14}{:>9} estimates, {} accepted, {} down-weighted, {} rejected, {} stale, {} invalid\n", name,
+               e.estimates, e.verdicts[0], e.verdicts[1], e.verdicts[2], e.verdicts[3], e.verdicts[4]);
   for (const auto& remark : report.remarks) fmt::print("  {}\n", remark);
 }
 
 /// A smoother that found no answer is an error, though the other estimators' results stand.
 void requireAnswers(const ReprocessReport& report) {
   for (const auto& [name, e] : report.estimators)
-    if (!e.failure.empty()) throw std::runtime_error(fmt::format("{}: {} found no answer: {}", report.input, name, e.failure));
+    if (!e.failure.empty())
+      throw std::runtime_error(fmt::format("{}: {} found no answer: {}", report.input, name, e.failure));
 }
 
 /// The manifest of a folder, rewritten whole after each bag.
@@ -91,7 +97,8 @@ class Manifest {
     all_["schema"] = "sas_motion/manifest/1";
   }
   bool has(const std::string& bag, const json& identity) const {
-    return all_.contains("bags") && all_["bags"].contains(bag) && all_["bags"][bag].value("identity", json()) == identity;
+    return all_.contains("bags") && all_["bags"].contains(bag) &&
+           all_["bags"][bag].value("identity", json()) == identity;
   }
   void add(const std::string& bag, json entry) {
     all_["bags"][bag] = std::move(entry);
@@ -107,10 +114,12 @@ class Manifest {
 void requireDistinct(const Options& options) {
   std::set<std::string> names, files;
   for (const auto& name : options.estimators)
-    if (!names.insert(name).second) throw std::runtime_error(fmt::format("--estimators: '{}' is there twice; name each once", name));
+    if (!names.insert(name).second)
+      throw std::runtime_error(fmt::format("--estimators: '{}' is there twice; name each once", name));
   for (const auto& bag : options.bags)
     if (!files.insert(std::filesystem::path(bag).filename()).second)
-      throw std::runtime_error(fmt::format("{}: another bag of this name is among the inputs; reprocess it into another folder", bag));
+      throw std::runtime_error(
+          fmt::format("{}: another bag of this name is among the inputs; reprocess it into another folder", bag));
 }
 
 void requireKnown(const std::vector<std::string>& estimators, const ReprocessSystem& system) {
@@ -141,17 +150,20 @@ void run(const Options& options) {
       const std::string& bag = options.bags[i];
       const std::string name = std::filesystem::path(bag).filename();
       try {
-        const std::shared_future<json> id = std::async(std::launch::async, identity, bag, options);  // while the bag is read
+        const std::shared_future<json> id =
+            std::async(std::launch::async, identity, bag, options);  // while the bag is read
         if (options.resume) {
           id.wait();
           const std::lock_guard<std::mutex> lock(mutex);
           if (manifest.has(name, id.get()) && std::filesystem::exists(options.out + "/" + name)) continue;
         }
-        const auto report = reprocess(bag, options.out, options.estimators, *system, [&](double seconds) { progress.advance(seconds); });
+        const auto report = reprocess(bag, options.out, options.estimators, *system,
+                                      [&](double seconds) { progress.advance(seconds); });
         json entry = toJson(report);
         entry["identity"] = id.get();
         const std::lock_guard<std::mutex> lock(mutex);
-        writeFile(options.out + "/" + std::filesystem::path(name).stem().string() + ".cost.json", costOf(report).dump(2) + "\n");
+        writeFile(options.out + "/" + std::filesystem::path(name).stem().string() + ".cost.json",
+                  costOf(report).dump(2) + "\n");
         printReport(report);
         requireAnswers(report);
         manifest.add(name, entry);
@@ -171,13 +183,16 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Runs estimators over recorded bags: each IN.bag to OUT_DIR/IN.bag with estimates and audit, a TUM file an estimator, manifest.json.",
-               "reprocess");
+  CLI::App app(
+      "Runs estimators over recorded bags: each IN.bag to OUT_DIR/IN.bag with estimates and audit, a TUM file an "
+      "estimator, manifest.json.",
+      "reprocess");
   app.add_option("BAG", options.bags, "bags to read")->required();
   app.add_option("-o,--output", options.out, "folder for the results (default: reprocessed)");
   app.add_option("--estimators", options.estimators, "names, comma-separated (default: kf,robust_kf)")->delimiter(',');
   app.add_option("--config", options.config, "configuration (YAML; default: built in)");
   app.add_option("-j,--jobs", options.jobs, "bags at once (default 1)")->check(CLI::Range(1, 1024));
-  app.add_flag("--resume", options.resume, "skip bags that the manifest says are done with the same input, configuration and estimators");
+  app.add_flag("--resume", options.resume,
+               "skip bags that the manifest says are done with the same input, configuration and estimators");
   return runTool(app, argc, argv, [&] { run(options); });
 }

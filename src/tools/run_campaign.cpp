@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// run_campaign SUITE.yaml: the worker of benchmark. Simulates, estimates and scores; prints JSON. See docs/benchmark.md.
+// run_campaign SUITE.yaml: the worker of benchmark. Simulates, estimates and scores; prints JSON. See
+// docs/benchmark.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,13 +40,17 @@ json orNull(const std::optional<Value>& value) {
 }
 
 json planOf(const Suite& suite) {
-  json plan{{"schema", "sas_motion/plan/1"},  {"suite", suite.name},   {"version", SAS_MOTION_VERSION}, {"config_hash", suite.hash}, {"runs", suite.runs},
-            {"first_seed", suite.first_seed}, {"tasks", suite.tasks()}};
+  json plan{{"schema", "sas_motion/plan/1"}, {"suite", suite.name}, {"version", SAS_MOTION_VERSION},
+            {"config_hash", suite.hash},     {"runs", suite.runs},  {"first_seed", suite.first_seed},
+            {"tasks", suite.tasks()}};
   for (std::size_t i = 0; i < suite.campaigns.size(); ++i) {
     const System& s = *suite.campaigns[i];
     json laws;
     for (const auto& law : s.laws)
-      laws.push_back({{"name", law.name}, {"description", law.description}, {"epsilon", orNull(law.epsilon)}, {"K", orNull(law.K)}});
+      laws.push_back({{"name", law.name},
+                      {"description", law.description},
+                      {"epsilon", orNull(law.epsilon)},
+                      {"K", orNull(law.K)}});
     plan["campaigns"].push_back({{"name", s.title},
                                  {"system", s.kind},
                                  {"first_task", suite.firstTask(i)},
@@ -67,7 +72,8 @@ json toJson(const Named<double>& values) {
 
 json toJson(const EstimatorReport& report) {
   json result{{"diverged", report.diverged}, {"locked_out", report.locked_out}, {"samples", report.samples}};
-  for (const auto& [group, error] : report.errors) result[group] = {{"rmse", error.rmse}, {"p95", error.p95}, {"max", error.max}};
+  for (const auto& [group, error] : report.errors)
+    result[group] = {{"rmse", error.rmse}, {"p95", error.p95}, {"max", error.max}};
   for (const auto& [group, value] : report.nees) result["nees"][group] = value;
   for (const auto& [sensor, value] : report.nis) result["nis"][sensor] = value;
   result["aperture_across"] = orNull(report.aperture_across);
@@ -94,7 +100,8 @@ std::string lineOf(const Suite& suite, std::size_t index) {
 void printTasks(const Suite& suite, const Options& options) {
   std::size_t first = 0, last = 0;
   if (std::sscanf(options.tasks.c_str(), "%zu:%zu", &first, &last) != 2 || first > last || last > suite.tasks())
-    throw std::runtime_error(fmt::format("--tasks: '{}' must be FIRST:LAST with at most {} tasks", options.tasks, suite.tasks()));
+    throw std::runtime_error(
+        fmt::format("--tasks: '{}' must be FIRST:LAST with at most {} tasks", options.tasks, suite.tasks()));
   inOrder(
       first, last, options.jobs, [&](std::size_t task) { return lineOf(suite, task); },
       [](const std::string& line) {
@@ -128,7 +135,8 @@ std::vector<Value> thinned(const std::vector<Value>& values) {
 
 json toJson(const Trace& t) {
   json others = json::array();
-  for (const auto& [group, series] : t.others) others.push_back({{"group", group}, {"error", thinned(series.error)}, {"sigma3", thinned(series.sigma3)}});
+  for (const auto& [group, series] : t.others)
+    others.push_back({{"group", group}, {"error", thinned(series.error)}, {"sigma3", thinned(series.sigma3)}});
   return {{"time", thinned(t.time)},
           {"error", thinned(t.error)},
           {"sigma3", thinned(t.sigma3)},
@@ -148,7 +156,8 @@ json tracesOf(const Suite& suite) {
   json all = json::object();
   for (const auto& campaign : suite.campaigns)
     for (std::size_t law = 0; law < campaign->laws.size(); ++law)
-      for (const auto& [name, trace] : campaign->trace(law, suite.first_seed)) all[campaign->title][campaign->laws[law].name][name] = toJson(trace);
+      for (const auto& [name, trace] : campaign->trace(law, suite.first_seed))
+        all[campaign->title][campaign->laws[law].name][name] = toJson(trace);
   return all;
 }
 
@@ -169,7 +178,8 @@ void writeImages(const Suite& suite, const std::string& folder) {
 }
 
 void run(const Options& options) {
-  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter, ins::makeAnyEstimator, sins::makeAnyEstimator);
+  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter, ins::makeAnyEstimator,
+                                sins::makeAnyEstimator);
   if (options.runs > 0) suite.runs = options.runs;
   if (options.plan) fmt::print("{}\n", planOf(suite).dump());
   if (!options.tasks.empty()) printTasks(suite, options);
@@ -182,16 +192,20 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("The worker of benchmark: simulates, estimates and scores the runs of a suite; prints JSON.", "run_campaign");
+  CLI::App app("The worker of benchmark: simulates, estimates and scores the runs of a suite; prints JSON.",
+               "run_campaign");
   app.add_option("SUITE", options.suite, "suite (YAML)")->required();
   app.add_option("--runs", options.runs, "seeds a law, instead of the suite's")->check(CLI::Range(1, 1000000));
-  app.add_option("-j,--jobs", options.jobs, "threads (default: all cores); the results do not depend on it")->check(CLI::Range(1, 1024));
+  app.add_option("-j,--jobs", options.jobs, "threads (default: all cores); the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
   auto* what = app.add_option_group("what to print");
   what->add_flag("--plan", options.plan, "what the suite holds");
   what->add_option("--tasks", options.tasks, "FIRST:LAST: the results of these runs, a line each, in order");
   what->add_flag("--bounds", options.bounds, "posterior Cramer-Rao bounds");
   what->add_flag("--trace", options.trace, "the first seed of every law over time");
-  what->add_option("--images", options.images, "folder for the images of the first seed of every law, which plot_focus.py draws; and their measures");
+  what->add_option(
+      "--images", options.images,
+      "folder for the images of the first seed of every law, which plot_focus.py draws; and their measures");
   what->require_option(1);
   return runTool(app, argc, argv, [&] { run(options); });
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// sas_motion_metrics OUT.bag -o DIR: scores the estimates in a bag against its truth. evaluate.py calls it and draws the report.
+// sas_motion_metrics OUT.bag -o DIR: scores the estimates in a bag against its truth. evaluate.py calls it and draws
+// the report.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,12 +39,19 @@ struct Options {
 double rounded(double value) { return std::isfinite(value) ? std::round(value * 1e6) / 1e6 : 0; }
 json orNull(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
-json toJson(const ErrorSummary& e, double unit) { return {{"rmse", e.rmse / unit}, {"p95", e.p95 / unit}, {"max", e.max / unit}}; }
+json toJson(const ErrorSummary& e, double unit) {
+  return {{"rmse", e.rmse / unit}, {"p95", e.p95 / unit}, {"max", e.max / unit}};
+}
 json toJson(const Consistency& c) {
-  return {{"mean", c.mean}, {"degrees", c.degrees}, {"lower", c.lower}, {"upper", c.upper}, {"inside", c.inside}, {"count", c.count}};
+  return {{"mean", c.mean},   {"degrees", c.degrees}, {"lower", c.lower},
+          {"upper", c.upper}, {"inside", c.inside},   {"count", c.count}};
 }
 json toJson(const Detection& d) {
-  return {{"labelled", d.labelled}, {"flagged", d.flagged}, {"hits", d.hits}, {"precision", orNull(d.precision())}, {"recall", orNull(d.recall())}};
+  return {{"labelled", d.labelled},
+          {"flagged", d.flagged},
+          {"hits", d.hits},
+          {"precision", orNull(d.precision())},
+          {"recall", orNull(d.recall())}};
 }
 
 /// Stretches without fixes, and the position error of the last estimate before the fixes came back.
@@ -61,7 +69,8 @@ std::vector<Outage> outages(const Recording& recording, const RecordedEstimator&
     }
     for (const auto& estimate : estimator.estimates)
       if (estimate.stamp > from && estimate.stamp < to)
-        if (const auto truth = recording.truthAt(estimate.stamp)) outage.error_end = (estimate.belief.mean - truth->state).head<2>().norm();
+        if (const auto truth = recording.truthAt(estimate.stamp))
+          outage.error_end = (estimate.belief.mean - truth->state).head<2>().norm();
     if (outage.error_end >= 0 && outage.distance > 0) found.push_back(outage);
   }
   return found;
@@ -70,7 +79,8 @@ std::vector<Outage> outages(const Recording& recording, const RecordedEstimator&
 /// One estimator scored: its metrics, and its scored trajectory beside truth in TUM files.
 class Judge {
  public:
-  Judge(const Recording& recording, const Options& options) : recording_(recording), options_(options), begins_off_(beginsOff()) {}
+  Judge(const Recording& recording, const Options& options)
+      : recording_(recording), options_(options), begins_off_(beginsOff()) {}
 
   json metrics(const std::string& name, const RecordedEstimator& estimator, const json& cost) const {
     Scorer scorer(options_.aperture);
@@ -87,20 +97,24 @@ class Judge {
       truth_tum.write({estimate.stamp, {truth->state, StateMatrix::Identity()}});
     }
     for (const auto& motion : estimator.motions)
-      if (const auto truth = recording_.motionAt(motion.stamp); truth && motion.stamp >= from) motions.add(motion, *truth);
+      if (const auto truth = recording_.motionAt(motion.stamp); truth && motion.stamp >= from)
+        motions.add(motion, *truth);
     tum.commit();
     truth_tum.commit();
     json m = describe(scorer.scores(), outages(recording_, estimator), cost);
     addMotions(motions.scores(), m);
     addAudits(estimator, from, m);
-    if (const json alignment = begins_off_ ? alignmentOf(estimator) : json(); !alignment.is_null()) m["alignment"] = alignment;
+    if (const json alignment = begins_off_ ? alignmentOf(estimator) : json(); !alignment.is_null())
+      m["alignment"] = alignment;
     return m;
   }
 
  private:
   json describe(const Scores& s, const std::vector<Outage>& gaps, const json& cost) const {
-    json m{{"samples", s.samples},  {"diverged", s.diverged},     {"drift_percent", 100 * s.drift}, {"nees", json::object()},
-           {"nis", json::object()}, {"outliers", json::object()}, {"outages", json::array()},       {"cost", cost}};
+    json m{{"samples", s.samples},           {"diverged", s.diverged},
+           {"drift_percent", 100 * s.drift}, {"nees", json::object()},
+           {"nis", json::object()},          {"outliers", json::object()},
+           {"outages", json::array()},       {"cost", cost}};
     for (int i = 0; i < kGroups; ++i) {
       const auto group = static_cast<Group>(i);
       const bool angle = group == kHeadingGroup;
@@ -109,8 +123,9 @@ class Judge {
     }
     ApertureError a = s.aperture;
     if (a.windows == 0) a.across = a.along = std::nan("");  // too few estimates for one
-    m["aperture"] = {{"time", a.time},     {"wavelength", a.wavelength}, {"windows", a.windows},
-                     {"across", a.across}, {"along", a.along},           {"across_wavelengths", a.across / a.wavelength}};
+    m["aperture"] = {{"time", a.time},       {"wavelength", a.wavelength},
+                     {"windows", a.windows}, {"across", a.across},
+                     {"along", a.along},     {"across_wavelengths", a.across / a.wavelength}};
     for (const auto& gap : gaps)
       m["outages"].push_back({{"begin", gap.begin},
                               {"duration", gap.duration},
@@ -132,7 +147,8 @@ class Judge {
   /// How far the heading of an estimate is off [deg], where that is known.
   std::optional<double> headingOff(const Estimate& estimate) const {
     const auto truth = recording_.truthAt(estimate.stamp);
-    if (!truth || !truth->heading_known || !(estimate.belief.covariance(kHeading, kHeading) < kNotEstimated)) return std::nullopt;
+    if (!truth || !truth->heading_known || !(estimate.belief.covariance(kHeading, kHeading) < kNotEstimated))
+      return std::nullopt;
     return std::abs(Model::difference(estimate.belief.mean, truth->state)(kHeading)) / kRadPerDeg;
   }
 
@@ -156,7 +172,8 @@ class Judge {
       if (*off > kAligned) last_off = *last;
     }
     if (!last) return nullptr;
-    return {{"within_deg", kAligned}, {"after", last_off == 0 || *last - last_off >= kAlignedFor ? json(last_off) : json(nullptr)}};
+    return {{"within_deg", kAligned},
+            {"after", last_off == 0 || *last - last_off >= kAlignedFor ? json(last_off) : json(nullptr)}};
   }
 
   /// What became of each sensor's measurements.
@@ -177,7 +194,8 @@ class Judge {
     }
     const auto& motions = estimator.motions;  // a solution without covariance has no NIS to speak of
     const bool consistent =
-        motions.empty() || std::any_of(motions.begin(), motions.end(), [](const MotionSample& motion) { return motion.P_position_map.has_value(); });
+        motions.empty() || std::any_of(motions.begin(), motions.end(),
+                                       [](const MotionSample& motion) { return motion.P_position_map.has_value(); });
     Detection all;
     for (const auto& [name, tally] : tallies) {
       if (!tally.nis.empty() && consistent) m["nis"][name] = toJson(consistency(tally.nis, degrees[name]));
@@ -189,7 +207,11 @@ class Judge {
     }
     if (recording_.labelled()) m["outliers"]["all"] = toJson(all);
     if (!effective_sizes.empty()) m["effective_particles"] = quantile(effective_sizes, 0.5);
-    m["verdicts"] = {{"accepted", verdicts[0]}, {"down_weighted", verdicts[1]}, {"rejected", verdicts[2]}, {"stale", verdicts[3]}, {"invalid", verdicts[4]}};
+    m["verdicts"] = {{"accepted", verdicts[0]},
+                     {"down_weighted", verdicts[1]},
+                     {"rejected", verdicts[2]},
+                     {"stale", verdicts[3]},
+                     {"invalid", verdicts[4]}};
   }
 
   const Recording& recording_;
@@ -200,7 +222,8 @@ class Judge {
 /// Named columns that grow by rows and are thinned to what a plot can show.
 class Series {
  public:
-  Series(std::initializer_list<const char*> names, std::size_t rows) : every_(std::max<std::size_t>(1, rows / kMostPoints)) {
+  Series(std::initializer_list<const char*> names, std::size_t rows)
+      : every_(std::max<std::size_t>(1, rows / kMostPoints)) {
     for (const char* name : names) columns_[name] = json::array();
     names_.assign(names.begin(), names.end());
   }
@@ -232,15 +255,17 @@ void addHeights(const Recording& recording, const RecordedEstimator& estimator, 
 }
 
 json seriesOf(const Recording& recording, const RecordedEstimator& estimator) {
-  Series states({"t", "north", "east", "error_north", "sigma_north", "error_east", "sigma_east", "error_heading_deg", "sigma_heading_deg"},
+  Series states({"t", "north", "east", "error_north", "sigma_north", "error_east", "sigma_east", "error_heading_deg",
+                 "sigma_heading_deg"},
                 estimator.estimates.size());
   for (const auto& estimate : estimator.estimates) {
     const auto truth = recording.truthAt(estimate.stamp);
     if (!truth) continue;
     const StateVector error = Model::difference(estimate.belief.mean, truth->state);
     const auto& P = estimate.belief.covariance;
-    states.add({secondsBetween(recording.begin, estimate.stamp), estimate.belief.mean(kNorth), estimate.belief.mean(kEast), error(kNorth),
-                std::sqrt(P(kNorth, kNorth)), error(kEast), std::sqrt(P(kEast, kEast)), truth->heading_known ? error(kHeading) / kRadPerDeg : 0,
+    states.add({secondsBetween(recording.begin, estimate.stamp), estimate.belief.mean(kNorth),
+                estimate.belief.mean(kEast), error(kNorth), std::sqrt(P(kNorth, kNorth)), error(kEast),
+                std::sqrt(P(kEast, kEast)), truth->heading_known ? error(kHeading) / kRadPerDeg : 0,
                 std::sqrt(P(kHeading, kHeading)) / kRadPerDeg});
   }
   json all = states.columns();
@@ -248,10 +273,14 @@ json seriesOf(const Recording& recording, const RecordedEstimator& estimator) {
   std::map<std::string, Series> updates;
   for (const auto& audit : estimator.audits) {
     if (audit.rows == 0) continue;
-    auto& series = updates.try_emplace(audit.sensor, std::initializer_list<const char*>{"t", "weight", "nis", "effective_size"}, estimator.audits.size() / 3)
-                       .first->second;
-    series.add({secondsBetween(recording.begin, audit.stamp), audit.least_weight, audit.nis.value_or(0), audit.effective_size},
-               audit.least_weight < kDownWeighted);
+    auto& series =
+        updates
+            .try_emplace(audit.sensor, std::initializer_list<const char*>{"t", "weight", "nis", "effective_size"},
+                         estimator.audits.size() / 3)
+            .first->second;
+    series.add(
+        {secondsBetween(recording.begin, audit.stamp), audit.least_weight, audit.nis.value_or(0), audit.effective_size},
+        audit.least_weight < kDownWeighted);
   }
   for (const auto& [sensor, series] : updates) all["updates"][sensor] = series.columns();
   return all;
@@ -259,7 +288,8 @@ json seriesOf(const Recording& recording, const RecordedEstimator& estimator) {
 
 json seriesOf(const Recording& recording) {
   Series truth({"t", "north", "east"}, recording.truth.size());
-  for (const auto& t : recording.truth) truth.add({secondsBetween(recording.begin, t.stamp), t.reference.state(kNorth), t.reference.state(kEast)});
+  for (const auto& t : recording.truth)
+    truth.add({secondsBetween(recording.begin, t.stamp), t.reference.state(kNorth), t.reference.state(kEast)});
   json fixes{{"t", json::array()}, {"north", json::array()}, {"east", json::array()}, {"outlier", json::array()}};
   for (const auto& fix : recording.fixes) {
     auto label = recording.outlier.find({fix.stamp, "position"});
@@ -280,9 +310,12 @@ json costOf(const std::string& bag, const std::string& name) {
   std::ifstream stream(path.replace_extension(".cost.json"));
   const json all = stream ? json::parse(stream, nullptr, false) : json();
   if (!all.is_object() || !all.contains(name)) return nullptr;
-  const double seconds = all[name].value("seconds", 0.0), measurements = all[name].value("measurements", 0.0), duration = all[name].value("duration", 0.0);
+  const double seconds = all[name].value("seconds", 0.0), measurements = all[name].value("measurements", 0.0),
+               duration = all[name].value("duration", 0.0);
   if (!(seconds > 0) || !(measurements > 0)) return nullptr;
-  return {{"seconds", seconds}, {"microseconds_per_update", 1e6 * seconds / measurements}, {"times_real_time", duration / seconds}};
+  return {{"seconds", seconds},
+          {"microseconds_per_update", 1e6 * seconds / measurements},
+          {"times_real_time", duration / seconds}};
 }
 
 void run(const Options& options) {
@@ -298,7 +331,8 @@ void run(const Options& options) {
                {"duration", secondsBetween(recording.begin, recording.end)},
                {"distance", distance},
                {"skipped", options.skip}};
-  for (const auto& [name, estimator] : recording.estimators) metrics["estimators"][name] = judge.metrics(name, estimator, costOf(options.bag, name));
+  for (const auto& [name, estimator] : recording.estimators)
+    metrics["estimators"][name] = judge.metrics(name, estimator, costOf(options.bag, name));
   writeFile(options.out + "/series.json", seriesOf(recording).dump());
   writeFile(options.out + "/metrics.json", metrics.dump(2) + "\n");
 }
@@ -307,13 +341,19 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Scores the estimates in a bag against its truth: metrics.json, series.json and TUM files. evaluate.py adds table and report.",
-               "sas_motion_metrics");
+  CLI::App app(
+      "Scores the estimates in a bag against its truth: metrics.json, series.json and TUM files. evaluate.py adds "
+      "table and report.",
+      "sas_motion_metrics");
   app.add_option("BAG", options.bag, "bag with truth and estimates")->required();
   app.add_option("-o,--output", options.out, "folder for the results")->required();
-  app.add_option("--skip", options.skip, "seconds at the start that are not scored (default 20)")->check(CLI::NonNegativeNumber);
-  app.add_option("--range", options.aperture.range, "slant range of the aperture error [m] (default 100)")->check(CLI::PositiveNumber);
-  app.add_option("--wavelength", options.aperture.wavelength, "wavelength of the aperture error [m] (default 0.015)")->check(CLI::PositiveNumber);
-  app.add_option("--element", options.aperture.element, "array element of the aperture error [m] (default 0.1)")->check(CLI::PositiveNumber);
+  app.add_option("--skip", options.skip, "seconds at the start that are not scored (default 20)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--range", options.aperture.range, "slant range of the aperture error [m] (default 100)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--wavelength", options.aperture.wavelength, "wavelength of the aperture error [m] (default 0.015)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--element", options.aperture.element, "array element of the aperture error [m] (default 0.1)")
+      ->check(CLI::PositiveNumber);
   return runTool(app, argc, argv, [&] { run(options); });
 }

@@ -69,10 +69,14 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app(
-      "Simulates a scenario into a bag. A towfish's: gnss/fix, imu/data, dvl/twist, /tf_static, and truth/odometry, truth/fix, truth/current, truth/label. "
-      "With 'system: usbl', a calibration's: gnss/fix, imu/data, usbl/measurement, usbl/transponder, /tf_static, and truth/odometry, truth/label, "
-      "truth/usbl_mounting. With 'system: ins_gps_dvl', a survey's: gnss/fix, imu/data, dvl/twist, depth/pose, /tf_static, and truth/odometry, truth/fix, "
-      "truth/label. With 'system: sins_dvl', a towed body's: imu/data, dvl/twist, depth/pose, /tf_static, one gnss/fix and one gnss/velocity at the start, and "
+      "Simulates a scenario into a bag. A towfish's: gnss/fix, imu/data, dvl/twist, /tf_static, and truth/odometry, "
+      "truth/fix, truth/current, truth/label. "
+      "With 'system: usbl', a calibration's: gnss/fix, imu/data, usbl/measurement, usbl/transponder, /tf_static, and "
+      "truth/odometry, truth/label, "
+      "truth/usbl_mounting. With 'system: ins_gps_dvl', a survey's: gnss/fix, imu/data, dvl/twist, depth/pose, "
+      "/tf_static, and truth/odometry, truth/fix, "
+      "truth/label. With 'system: sins_dvl', a towed body's: imu/data, dvl/twist, depth/pose, /tf_static, one gnss/fix "
+      "and one gnss/velocity at the start, and "
       "truth/odometry, truth/fix, truth/label.",
       "simulate");
   app.add_option("SCENARIO", options.scenario, "scenario to play (YAML)")->required();

@@ -15,7 +15,8 @@ namespace sas_motion {
 /// Turns what the simulator of a towfish gives into messages in a bag.
 class TowfishRecorder {
  public:
-  TowfishRecorder(const towfish::Scenario& scenario, ros_side::BagOutput& bag) : scenario_(scenario), bag_(bag), frame_(scenario.datum) {}
+  TowfishRecorder(const towfish::Scenario& scenario, ros_side::BagOutput& bag)
+      : scenario_(scenario), bag_(bag), frame_(scenario.datum) {}
 
   void transforms();
   void truth(const towfish::TruthSample& truth);

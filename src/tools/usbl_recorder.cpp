@@ -36,11 +36,13 @@ UsblRecorder::UsblRecorder(const usbl::Scenario& scenario, std::uint64_t seed, B
 
 void UsblRecorder::record(const std::function<void(double)>& progress) {
   enum { kPing, kFix, kAttitude, kTruth, kClocks };
-  std::array<Clock, kClocks> clocks{Clock{1 / scenario_.ping_rate, scenario_.ping_rate}, Clock{kGnssPhase, scenario_.gnss_rate},
+  std::array<Clock, kClocks> clocks{Clock{1 / scenario_.ping_rate, scenario_.ping_rate},
+                                    Clock{kGnssPhase, scenario_.gnss_rate},
                                     Clock{kAttitudePhase, scenario_.attitude_rate}, Clock{0, kTruthRate}};
   fixed();
   for (;;) {
-    const auto clock = std::min_element(clocks.begin(), clocks.end(), [](const Clock& a, const Clock& b) { return a.next() < b.next(); });
+    const auto clock = std::min_element(clocks.begin(), clocks.end(),
+                                        [](const Clock& a, const Clock& b) { return a.next() < b.next(); });
     const double seconds = clock->next();
     if (seconds > scenario_.duration + 1e-9) return;
     ++clock->ticks;
@@ -63,7 +65,8 @@ void UsblRecorder::fixed() {
   transforms.transforms = {stamped(settings_.base_frame, "gnss_link", start, T_base_gnss),
                            stamped(settings_.base_frame, "imu_link", start, Transform::Identity())};
   bag_.writeLatched("/tf_static", start, transforms);
-  bag_.writeLatched(settings_.transponder_topic, start, fixAt(simulator_.transponder(), std::to_string(kTransponder), start));
+  bag_.writeLatched(settings_.transponder_topic, start,
+                    fixAt(simulator_.transponder(), std::to_string(kTransponder), start));
   const Transform T_base_array = transformOf(usbl::corrected({}, scenario_.truth.head<usbl::kStates>()));
   bag_.writeLatched("truth/usbl_mounting", start, stamped(settings_.base_frame, kArrayFrame, start, T_base_array));
 }
@@ -81,8 +84,10 @@ void UsblRecorder::truth(ros::Time time, const usbl::Pose& pose) {
 }
 
 void UsblRecorder::fix(ros::Time time, const usbl::Pose& pose) {
-  sensor_msgs::NavSatFix message = fixAt(simulator_.frame().geodetic(simulator_.measuredAntenna(pose)), "gnss_link", time);
-  const double flat = scenario_.gnss_sigma * scenario_.gnss_sigma, up = scenario_.gnss_sigma_up * scenario_.gnss_sigma_up;
+  sensor_msgs::NavSatFix message =
+      fixAt(simulator_.frame().geodetic(simulator_.measuredAntenna(pose)), "gnss_link", time);
+  const double flat = scenario_.gnss_sigma * scenario_.gnss_sigma,
+               up = scenario_.gnss_sigma_up * scenario_.gnss_sigma_up;
   message.position_covariance = {flat, 0, 0, 0, flat, 0, 0, 0, up};
   bag_.write(settings_.fix_topic, time, message);
 }
@@ -92,7 +97,8 @@ void UsblRecorder::attitude(ros::Time time, const usbl::Pose& pose) {
   message.header.stamp = time;
   message.header.frame_id = "imu_link";
   message.orientation = orientationOf(rotationOf(simulator_.measuredAttitude(pose).attitude));
-  const double tilt = scenario_.attitude_sigma * scenario_.attitude_sigma, heading = scenario_.heading_sigma * scenario_.heading_sigma;
+  const double tilt = scenario_.attitude_sigma * scenario_.attitude_sigma,
+               heading = scenario_.heading_sigma * scenario_.heading_sigma;
   message.orientation_covariance = {tilt, 0, 0, 0, tilt, 0, 0, 0, heading};
   message.angular_velocity_covariance[0] = message.linear_acceleration_covariance[0] = -1;
   bag_.write(settings_.imu_topic, time, message);

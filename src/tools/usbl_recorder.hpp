@@ -10,8 +10,8 @@
 
 namespace sas_motion {
 
-/// Turns what the simulator of a USBL calibration gives into messages in a bag. GNSS and attitude have their own rates and do not fall on
-/// pings.
+/// Turns what the simulator of a USBL calibration gives into messages in a bag. GNSS and attitude have their own rates
+/// and do not fall on pings.
 class UsblRecorder {
  public:
   UsblRecorder(const usbl::Scenario& scenario, std::uint64_t seed, ros_side::BagOutput& bag);

@@ -21,7 +21,9 @@ TEST_P(EveryCompression, GivesWhatViewGives) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BagReader, EveryCompression, testing::Values(rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4));
+INSTANTIATE_TEST_SUITE_P(BagReader, EveryCompression,
+                         testing::Values(rosbag::compression::Uncompressed, rosbag::compression::BZ2,
+                                         rosbag::compression::LZ4));
 
 TEST(BagReader, KeepsTheOrderOfViewWithUpTo16Connections) {
   for (unsigned seed = 1; seed <= 20; ++seed) {

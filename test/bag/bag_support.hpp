@@ -22,7 +22,8 @@ namespace sas_motion::ros_side {
 /// A file of a test, removed after it.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& name) : path_(std::filesystem::temp_directory_path() / fmt::format("{}.{}", ::getpid(), name)) {}
+  explicit TemporaryFile(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / fmt::format("{}.{}", ::getpid(), name)) {}
   ~TemporaryFile() { std::filesystem::remove(path_); }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -84,7 +85,9 @@ struct Seen {
   std::string topic, caller, type;
   ros::Time time;
   std::string bytes;
-  bool operator==(const Seen& o) const { return topic == o.topic && caller == o.caller && type == o.type && time == o.time && bytes == o.bytes; }
+  bool operator==(const Seen& o) const {
+    return topic == o.topic && caller == o.caller && type == o.type && time == o.time && bytes == o.bytes;
+  }
 };
 
 inline std::vector<Seen> seenByView(const std::string& path) {
@@ -105,7 +108,8 @@ inline std::vector<Seen> seenByReader(const std::string& path) {
   std::vector<Seen> seen;
   while (const BagMessage* m = reader.next()) {
     const auto& c = *m->connection;
-    seen.push_back({c.topic, c.header.count("callerid") ? c.header.at("callerid") : "", c.type, m->time, std::string(m->bytes.text())});
+    seen.push_back({c.topic, c.header.count("callerid") ? c.header.at("callerid") : "", c.type, m->time,
+                    std::string(m->bytes.text())});
   }
   return seen;
 }

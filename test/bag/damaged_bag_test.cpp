@@ -32,7 +32,8 @@ class EveryDamage : public testing::TestWithParam<rosbag::CompressionType> {
     std::mt19937 random(7);
     for (int run = 0; run < 300; ++run) {
       std::string damaged = whole;
-      for (auto left = 1 + random() % 4; left > 0; --left) damaged[begin + random() % (end - begin)] ^= static_cast<char>(1 + random() % 255);
+      for (auto left = 1 + random() % 4; left > 0; --left)
+        damaged[begin + random() % (end - begin)] ^= static_cast<char>(1 + random() % 255);
       file_.write(damaged);
       const std::string complaint = complaintOf(file_.path());
       EXPECT_TRUE(complaint.empty() || complaint.rfind(file_.path() + ": ", 0) == 0) << complaint;
@@ -70,14 +71,17 @@ TEST_P(EveryDamage, CutShort) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(DamagedBag, EveryDamage, testing::Values(rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4));
+INSTANTIATE_TEST_SUITE_P(DamagedBag, EveryDamage,
+                         testing::Values(rosbag::compression::Uncompressed, rosbag::compression::BZ2,
+                                         rosbag::compression::LZ4));
 
 /// A bag in which one text is replaced by another as long.
 std::string complaintAfter(const std::string& from, const std::string& to) {
   const TemporaryFile file("replaced.bag");
   writeBag(file.path(), {});
   std::string bytes = file.read();
-  for (auto at = bytes.find(from); at != std::string::npos; at = bytes.find(from, at + 1)) bytes.replace(at, to.size(), to);
+  for (auto at = bytes.find(from); at != std::string::npos; at = bytes.find(from, at + 1))
+    bytes.replace(at, to.size(), to);
   file.write(bytes);
   return complaintOf(file.path());
 }
@@ -90,7 +94,8 @@ TEST(DamagedBag, SaysWhatIsWrong) {
 }
 
 TEST(DamagedBag, MissingOrNoFile) {
-  EXPECT_NE(complaintOf("/nowhere/survey.bag").find("/nowhere/survey.bag: no such file; check the path"), std::string::npos);
+  EXPECT_NE(complaintOf("/nowhere/survey.bag").find("/nowhere/survey.bag: no such file; check the path"),
+            std::string::npos);
   EXPECT_NE(complaintOf("/tmp").find("/tmp: is no whole rosbag"), std::string::npos);
 }
 
@@ -99,7 +104,10 @@ TEST(DamagedBag, AMessageTooShortForItsTypeIsNamed) {
   {
     rosbag::Bag bag(file.path(), rosbag::bagmode::Write);
     const auto header = boost::make_shared<ros::M_string>();
-    *header = {{"topic", "/imu"}, {"type", "sensor_msgs/Imu"}, {"md5sum", ros::message_traits::md5sum<sensor_msgs::Imu>()}, {"message_definition", "-"}};
+    *header = {{"topic", "/imu"},
+               {"type", "sensor_msgs/Imu"},
+               {"md5sum", ros::message_traits::md5sum<sensor_msgs::Imu>()},
+               {"message_definition", "-"}};
     bag.write("/imu", ros::Time(1), sas_motion::FilterUpdate(), header);
   }
   EXPECT_NE(complaintOf(file.path()).find("is damaged"), std::string::npos) << complaintOf(file.path());

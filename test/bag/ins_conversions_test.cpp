@@ -20,7 +20,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 Transform pose(double x, double y, double z, double yaw = 0, double pitch = 0, double roll = 0) {
   Transform T = Transform::Identity();
   T.translation() << x, y, z;
-  T.rotate(Eigen::AngleAxisd(yaw, Vector<3>::UnitZ()) * Eigen::AngleAxisd(pitch, Vector<3>::UnitY()) * Eigen::AngleAxisd(roll, Vector<3>::UnitX()));
+  T.rotate(Eigen::AngleAxisd(yaw, Vector<3>::UnitZ()) * Eigen::AngleAxisd(pitch, Vector<3>::UnitY()) *
+           Eigen::AngleAxisd(roll, Vector<3>::UnitX()));
   return T;
 }
 
@@ -74,7 +75,8 @@ TEST(InsConversions, AnInertialUnitUpsideDownReadsTheSameAsOneUpright) {
   EXPECT_LT((a->imu.rate_body - b->imu.rate_body).norm(), 1e-15);
   EXPECT_LT((a->imu.force_body - b->imu.force_body).norm(), 1e-14);
   EXPECT_LT(a->attitude->q_nav_body.angularDistance(b->attitude->q_nav_body), 1e-12);
-  EXPECT_NEAR(attitudeOf(a->attitude->q_nav_body.toRotationMatrix()).heading, kPi / 2 - 0.8, 1e-12);  // yaw is counter-clockwise from east
+  EXPECT_NEAR(attitudeOf(a->attitude->q_nav_body.toRotationMatrix()).heading, kPi / 2 - 0.8,
+              1e-12);  // yaw is counter-clockwise from east
 }
 
 TEST(InsConversions, WhatAnInertialUnitDoesNotSayIsLeftOut) {
@@ -82,7 +84,8 @@ TEST(InsConversions, WhatAnInertialUnitDoesNotSayIsLeftOut) {
   imu.orientation.w = 1;
   const ins::Settings settings;
   EXPECT_TRUE(readingOf(imu, pose(0, 0, 0), settings)->attitude);
-  EXPECT_EQ(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma, settings.session.config.parameters.start_heading);
+  EXPECT_EQ(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma,
+            settings.session.config.parameters.start_heading);
   imu.orientation_covariance[8] = 0.04;
   EXPECT_EQ(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma, 0.2);
   imu.orientation_covariance[8] = 1e6;  // as many say that they do not know
@@ -154,7 +157,8 @@ TEST(InsConversions, AVelocityOfGnssIsAsSureAsItsWorstAxis) {
   for (const std::size_t axis : {0, 7, 14}) {
     auto unsaid = twistOf(1, 2, 3, 1e-6);
     unsaid.twist.covariance[axis] = kNaN;
-    EXPECT_DOUBLE_EQ(groundVelocityOf(unsaid, settings)->sigma, settings.session.alignment.ground_velocity_sigma) << axis;
+    EXPECT_DOUBLE_EQ(groundVelocityOf(unsaid, settings)->sigma, settings.session.alignment.ground_velocity_sigma)
+        << axis;
     for (const double variance : {-1.0, 1e6}) {
       unsaid.twist.covariance[axis] = variance;
       EXPECT_FALSE(groundVelocityOf(unsaid, settings)) << axis;
@@ -173,7 +177,8 @@ TEST(InsConversions, DepthsAreBelowTheSurface) {
   EXPECT_FALSE(readingOf(depth, {}, settings));
 }
 
-/// What an odometry says, as numbers: position and velocity in the base; rotation apart from another, about the axes of the map.
+/// What an odometry says, as numbers: position and velocity in the base; rotation apart from another, about the axes of
+/// the map.
 Vector<9> numbersOf(const nav_msgs::Odometry& odometry, const Eigen::Quaterniond& about) {
   const auto& p = odometry.pose.pose;
   const auto& v = odometry.twist.twist.linear;
@@ -184,7 +189,8 @@ Vector<9> numbersOf(const nav_msgs::Odometry& odometry, const Eigen::Quaterniond
 }
 
 TEST(InsConversions, CovariancesAreThoseOfPerturbedSolutions) {
-  // GIVEN a solution far from the datum and a base away from the INS, WHEN each error is put in, THEN the message's covariance is that of what it changes
+  // GIVEN a solution far from the datum and a base away from the INS, WHEN each error is put in, THEN the message's
+  // covariance is that of what it changes
   const LocalFrame frame({54.2, 9.9, 0});
   const InsSettings settings;
   const Vector<3> lever(0.4, -1.2, 3.5);
@@ -205,7 +211,8 @@ TEST(InsConversions, CovariancesAreThoseOfPerturbedSolutions) {
       wrong.state.velocity_nav += e.head<3>();
       displace(wrong.state, e.segment<3>(3));
       const Vector<3> phi = e.tail<3>();
-      wrong.state.q_nav_body = Eigen::Quaterniond(Eigen::AngleAxisd(-phi.norm(), phi.stableNormalized())) * wrong.state.q_nav_body;
+      wrong.state.q_nav_body =
+          Eigen::Quaterniond(Eigen::AngleAxisd(-phi.norm(), phi.stableNormalized())) * wrong.state.q_nav_body;
       return numbersOf(odometryOf(movedBy(wrong, lever), frame, settings), about);
     };
     J.col(i) = (with(kStep) - with(-kStep)) / (2 * kStep);

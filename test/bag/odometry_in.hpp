@@ -30,7 +30,8 @@ struct Differences {
   double position = 0, velocity = 0, attitude = 0, covariance = 0;
 };
 
-inline Differences differencesBetween(const std::vector<nav_msgs::Odometry>& messages, const std::vector<ins::Solution>& solutions, const LocalFrame& frame) {
+inline Differences differencesBetween(const std::vector<nav_msgs::Odometry>& messages,
+                                      const std::vector<ins::Solution>& solutions, const LocalFrame& frame) {
   Differences most;
   for (std::size_t i = 0; i < messages.size(); ++i) {
     const auto expected = odometryOf(solutions[i], frame, {});
@@ -40,9 +41,11 @@ inline Differences differencesBetween(const std::vector<nav_msgs::Odometry>& mes
       EXPECT_TRUE(std::isfinite(difference));
       largest = std::max(largest, std::abs(difference));
     };
-    for (const double difference : {a.position.x - b.position.x, a.position.y - b.position.y, a.position.z - b.position.z}) note(most.position, difference);
     for (const double difference :
-         {a.orientation.x - b.orientation.x, a.orientation.y - b.orientation.y, a.orientation.z - b.orientation.z, a.orientation.w - b.orientation.w})
+         {a.position.x - b.position.x, a.position.y - b.position.y, a.position.z - b.position.z})
+      note(most.position, difference);
+    for (const double difference : {a.orientation.x - b.orientation.x, a.orientation.y - b.orientation.y,
+                                    a.orientation.z - b.orientation.z, a.orientation.w - b.orientation.w})
       note(most.attitude, difference);
     note(most.velocity, messages[i].twist.twist.linear.x - expected.twist.twist.linear.x);
     note(most.covariance, messages[i].pose.covariance[0] / expected.pose.covariance[0] - 1);
@@ -52,7 +55,8 @@ inline Differences differencesBetween(const std::vector<nav_msgs::Odometry>& mes
 
 /// Says what the largest differences of an estimator are, and expects each below its bound.
 inline void expectBelow(const std::string& estimator, const Differences& found, const Differences& bound) {
-  std::cout << estimator << ": " << found.position << " m, " << found.velocity << " m/s, " << found.attitude << ", covariance " << found.covariance << "\n";
+  std::cout << estimator << ": " << found.position << " m, " << found.velocity << " m/s, " << found.attitude
+            << ", covariance " << found.covariance << "\n";
   EXPECT_LT(found.position, bound.position) << estimator;
   EXPECT_LT(found.velocity, bound.velocity) << estimator;
   EXPECT_LT(found.attitude, bound.attitude) << estimator;

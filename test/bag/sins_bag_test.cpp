@@ -24,7 +24,8 @@ sins::Scenario scenarioWithLevers() {
 }
 
 /// The same readings without a bag between.
-std::vector<ins::Solution> inMemory(const sins::Scenario& scenario, std::uint64_t seed, const std::string& name, int particles) {
+std::vector<ins::Solution> inMemory(const sins::Scenario& scenario, std::uint64_t seed, const std::string& name,
+                                    int particles) {
   const auto recording = sins::simulate(scenario, ins::Trajectory(scenario.track, scenario.duration), seed);
   sins::Config config;
   config.parameters = scenario.parameters;
@@ -34,18 +35,22 @@ std::vector<ins::Solution> inMemory(const sins::Scenario& scenario, std::uint64_
   ins::Output output;
   auto next = recording.aiding.begin();
   for (std::size_t k = 1; k < recording.imu.size(); ++k) {
-    for (; next != recording.aiding.end() && next->reading.stamp <= recording.imu[k].stamp; ++next) estimator->process(next->reading, output);
+    for (; next != recording.aiding.end() && next->reading.stamp <= recording.imu[k].stamp; ++next)
+      estimator->process(next->reading, output);
     estimator->process(recording.imu[k], output);
   }
   return output.solutions;
 }
 
 TEST(SinsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
-  // GIVEN a simulated run from a heading that is 5 degrees off, WHEN it goes through messages, a bag, tf, alignment and reprocess, THEN only their rounding
-  // is between it and the run in memory: start, velocity and lever arms are those of the simulator
-  const std::string folder = ::testing::TempDir() + "/sins_bag_test", file = folder + "/sins.bag", config = folder + "/a.yaml";
+  // GIVEN a simulated run from a heading that is 5 degrees off, WHEN it goes through messages, a bag, tf, alignment and
+  // reprocess, THEN only their rounding is between it and the run in memory: start, velocity and lever arms are those
+  // of the simulator
+  const std::string folder = ::testing::TempDir() + "/sins_bag_test", file = folder + "/sins.bag",
+                    config = folder + "/a.yaml";
   std::filesystem::create_directories(folder + "/out");
-  std::ofstream(config) << "{system: sins_dvl, output_rate: 100, lag: 2, datum: [60, 120, 0], particles: {number: 100}}";
+  std::ofstream(config)
+      << "{system: sins_dvl, output_rate: 100, lag: 2, datum: [60, 120, 0], particles: {number: 100}}";
   const sins::Scenario scenario = scenarioWithLevers();
   BagOutput bag(file);
   InsRecorder(scenario, 7, bag).record([](double) {});
@@ -59,7 +64,8 @@ TEST(SinsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
     const auto solutions = inMemory(scenario, 7, name, 100);
     ASSERT_EQ(messages.size(), solutions.size());
     ASSERT_EQ(messages.size(), static_cast<std::size_t>(100 * kSeconds));
-    expectBelow(name, differencesBetween(messages, solutions, frame), {1e-5, 1e-6, 1e-7, 1e-4});  // the start knows of the way from the attitude to the fix
+    expectBelow(name, differencesBetween(messages, solutions, frame),
+                {1e-5, 1e-6, 1e-7, 1e-4});  // the start knows of the way from the attitude to the fix
   }
   std::filesystem::remove_all(folder);
 }

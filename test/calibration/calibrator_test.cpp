@@ -20,7 +20,9 @@ Scenario scenario(double stated_factor = 1) {
   return result;
 }
 
-State errorOf(const Calibrator& calibrator, const Scenario& scenario) { return calibrator.belief().mean - scenario.truth.head<kStates>(); }
+State errorOf(const Calibrator& calibrator, const Scenario& scenario) {
+  return calibrator.belief().mean - scenario.truth.head<kStates>();
+}
 
 /// Root mean square over seeds of the final error, each unknown over its scale of 0.01 degrees or 0.01 m.
 double error(const std::string& filter, const Scenario& sea, const Config& config, int seeds = 10) {
@@ -64,12 +66,13 @@ TEST_P(EveryCalibrationFilter, SurvivesReadingsThatAreNone) {
 
 TEST(Calibrator, RobustAndAdaptiveFiltersDoWhatTheyAreFor) {
   constexpr int kSeeds = 24;
-  const double ckf = error("ckf", scenario(), {}, kSeeds), vbckf = error("vbckf", scenario(), {}, kSeeds), hckf = error("hckf", scenario(), {}, kSeeds),
-               hvbckf = error("hvbckf", scenario(), {}, kSeeds);
+  const double ckf = error("ckf", scenario(), {}, kSeeds), vbckf = error("vbckf", scenario(), {}, kSeeds),
+               hckf = error("hckf", scenario(), {}, kSeeds), hvbckf = error("hvbckf", scenario(), {}, kSeeds);
   EXPECT_GT(ckf / hvbckf, 2);
   EXPECT_GT(vbckf / hvbckf, 1.2);
   EXPECT_NEAR(hckf / hvbckf, 1, 0.15) << "the stated noise is right";
-  EXPECT_GT(error("hckf", scenario(25), {}, kSeeds) / error("hvbckf", scenario(25), {}, kSeeds), 1.2) << "the stated noise is 25 times too large";
+  EXPECT_GT(error("hckf", scenario(25), {}, kSeeds) / error("hvbckf", scenario(25), {}, kSeeds), 1.2)
+      << "the stated noise is 25 times too large";
 }
 
 TEST(Calibrator, WhatTheMessagesStateOfTheNoiseHardlyMatters) {
@@ -106,7 +109,8 @@ TEST(Calibrator, FindsOutThatItHasLockedIn) {
   auto pings = simulatePings(scenario(), 2);
   pings[0].ping.reading.value += Vector<3>(30, 0.8, -0.8);
   for (const auto& labelled : pings) unguarded.process(labelled.ping), guarded.process(labelled.ping);
-  const double lost = errorOf(unguarded, scenario()).head<3>().norm(), found = errorOf(guarded, scenario()).head<3>().norm();
+  const double lost = errorOf(unguarded, scenario()).head<3>().norm(),
+               found = errorOf(guarded, scenario()).head<3>().norm();
   EXPECT_LT(found, 0.1 * kRadPerDeg);
   EXPECT_LE(found, lost * 1.5);
 }
@@ -114,7 +118,8 @@ TEST(Calibrator, FindsOutThatItHasLockedIn) {
 TEST(Calibrator, WaitsForItsStart) {
   Calibrator calibrator("hvbckf", {});
   const auto pings = simulatePings(scenario(), 3);
-  for (int i = 0; i < 50; ++i) EXPECT_EQ(calibrator.process(pings[static_cast<std::size_t>(i)].ping).verdict, Verdict::Invalid);
+  for (int i = 0; i < 50; ++i)
+    EXPECT_EQ(calibrator.process(pings[static_cast<std::size_t>(i)].ping).verdict, Verdict::Invalid);
   EXPECT_FALSE(calibrator.started());
   EXPECT_EQ(calibrator.belief().mean, State::Zero());
   for (int i = 50; i < 70; ++i) calibrator.process(pings[static_cast<std::size_t>(i)].ping);

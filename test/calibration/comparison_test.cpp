@@ -25,7 +25,8 @@ TEST(Comparison, EveryEstimatorIsWithinFourSigmaAndTheAnswerIsTrusted) {
   EXPECT_EQ(comparison.best().name, "hvbckf");
   ASSERT_EQ(comparison.estimates.size(), names.size());
   for (const auto& estimated : comparison.estimates)
-    for (int i = 0; i < kStates; ++i) EXPECT_LT(std::abs(estimated.x(i) - scenario.truth(i)), 4 * estimated.sigma()(i)) << estimated.name << " " << i;
+    for (int i = 0; i < kStates; ++i)
+      EXPECT_LT(std::abs(estimated.x(i) - scenario.truth(i)), 4 * estimated.sigma()(i)) << estimated.name << " " << i;
 }
 
 TEST(Comparison, BatchAnswersWhereFurtherUnknownsAreEstimated) {

@@ -25,7 +25,9 @@ struct Sailing {
   PingBuilder builder;
   Vector<3> lever_arm{0.5, -1, 4};
 
-  explicit Sailing(const PingBuilderOptions& options = {}) : builder(options) { builder.addTransponder(7, place(kTransponder)); }
+  explicit Sailing(const PingBuilderOptions& options = {}) : builder(options) {
+    builder.addTransponder(7, place(kTransponder));
+  }
 
   static Matrix<3> attitude(double t) { return turned(350 + 3 * t); }
   static Vector<3> position(double t) { return {2 * t, 10, 1}; }
@@ -47,7 +49,8 @@ TEST(PingBuilder, InterpolatesPoseAndTakesTheLeverArmOff) {
   const double times[] = {0.1, 3.4, 6.05};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(pings[i].stamp, at(times[i]));
-    EXPECT_LT((pings[i].C_body_map.transpose() - Sailing::attitude(times[i])).norm(), 1e-5) << "the heading passes north on the shortest way";
+    EXPECT_LT((pings[i].C_body_map.transpose() - Sailing::attitude(times[i])).norm(), 1e-5)
+        << "the heading passes north on the shortest way";
     EXPECT_LT((pings[i].transponder_map - (kTransponder - Sailing::position(times[i]))).norm(), 2e-3);
     EXPECT_EQ(pings[i].reading.value, reading().value);
   }
@@ -155,7 +158,9 @@ TEST(PingBuilder, ANominalMountingTakesTheBodysPlace) {
   State whole_state;
   const Attitude angles = attitudeOf(whole.C_body_array);
   whole_state << angles.pitch, angles.roll, angles.heading, whole.lever_arm_body;
-  EXPECT_LT((transponderInArray(Model::widened(whole_state), a) - transponderInArray(Model::widened(correction), b)).norm(), 1e-9);
+  EXPECT_LT(
+      (transponderInArray(Model::widened(whole_state), a) - transponderInArray(Model::widened(correction), b)).norm(),
+      1e-9);
   EXPECT_LT((correctionTo(whole, nominal) - correction).norm(), 1e-12);
 }
 

@@ -85,7 +85,8 @@ TEST(RobustFit, FindsATransponderAndASoundSpeedThatAreOff) {
   const auto without = fit(problem, {});
   problem.prior.estimated.fill(true);
   const auto with = fit(problem, {});
-  for (int i = kStates; i < kUnknowns; ++i) EXPECT_LT(std::abs(with.x(i) - sea.truth(i)), 4 * std::sqrt(with.covariance(i, i))) << i;
+  for (int i = kStates; i < kUnknowns; ++i)
+    EXPECT_LT(std::abs(with.x(i) - sea.truth(i)), 4 * std::sqrt(with.covariance(i, i))) << i;
   EXPECT_GT(distance(without, sea.truth), 3 * distance(with, sea.truth));
   EXPECT_LT(std::sqrt(with.covariance(kRangeScale, kRangeScale)), 0.001);
 }
@@ -109,7 +110,8 @@ TEST(Observability, ACentredCircleDoesNotTellHeadingFromTheForeAndAftArm) {
   EXPECT_GT(report.bound(kLeverY), 0.3);
   const auto found = fit(problem, {});
   for (int i = 0; i < kStates; ++i)
-    EXPECT_LT(std::abs(found.x(i) - sea.truth(i)), 3 * std::sqrt(found.covariance(i, i))) << unknownNames()[static_cast<std::size_t>(i)];
+    EXPECT_LT(std::abs(found.x(i) - sea.truth(i)), 3 * std::sqrt(found.covariance(i, i)))
+        << unknownNames()[static_cast<std::size_t>(i)];
 }
 
 TEST(Observability, AFigureEightShowsEveryUnknown) {

@@ -10,7 +10,8 @@ namespace sas_motion {
 namespace {
 
 Suite eightLaws(int runs) {
-  Suite suite = Suite::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/suites/eight_laws.yaml", towfish::makeEstimator);
+  Suite suite =
+      Suite::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/suites/eight_laws.yaml", towfish::makeEstimator);
   suite.runs = runs;
   suite.campaigns[0]->estimators = {"kf", "oracle_kf", "bank_kf"};
   return suite;
@@ -71,7 +72,8 @@ TEST(EightLaws, WhatKnowsTheLawIsNearTheOracleAndNoFilterThatDoesNotIsBetter) {
   for (const auto& law : suite.campaigns[0]->laws) {
     const double reference = testing::rmse(suite, runs, law.name, "bayes_reference");
     EXPECT_NEAR(reference / testing::rmse(suite, runs, law.name, "oracle_kf"), 1.1, 0.15) << law.name;
-    for (const char* told_nothing : {"bank_kf", "mixture_kf"}) EXPECT_LT(reference, testing::rmse(suite, runs, law.name, told_nothing)) << law.name;
+    for (const char* told_nothing : {"bank_kf", "mixture_kf"})
+      EXPECT_LT(reference, testing::rmse(suite, runs, law.name, told_nothing)) << law.name;
   }
 }
 
@@ -82,7 +84,8 @@ TEST(TowfishSystem, TheKalmanFilterReachesTheBoundOnGaussianNoise) {
   std::iota(seeds.begin(), seeds.end(), suite.first_seed);
   const auto bound = suite.campaigns[0]->bound(0, seeds);
   EXPECT_EQ(bound.front().first, "position");
-  EXPECT_NEAR(testing::rmse(suite, runs, "clean", "kf") / bound.front().second, 1, 0.06);  // 40 runs of two minutes scatter by 2 %
+  EXPECT_NEAR(testing::rmse(suite, runs, "clean", "kf") / bound.front().second, 1,
+              0.06);  // 40 runs of two minutes scatter by 2 %
 }
 
 TEST(EightLaws, RobustFiltersSayHowLargeTheirErrorsAreWhateverTheReadings) {

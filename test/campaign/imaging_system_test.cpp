@@ -18,8 +18,8 @@ const std::string kConfig = SAS_MOTION_SOURCE_DIR "/config/";
 
 std::string imagingSuite(const std::string& estimators, const std::string& more = "") {
   return "{runs: 1, campaigns: [{name: images, system: imaging, scenario: " + kConfig +
-         "scenarios/ins/survey.yaml, duration: 200, skip: 120, windows: 2, config: " + kConfig + "focus_survey.yaml, estimators: " + estimators +
-         ", laws: [{name: clean}]" + more + "}]}";
+         "scenarios/ins/survey.yaml, duration: 200, skip: 120, windows: 2, config: " + kConfig +
+         "focus_survey.yaml, estimators: " + estimators + ", laws: [{name: clean}]" + more + "}]}";
 }
 
 /// The measures of each window, by estimator.
@@ -49,16 +49,19 @@ TEST(ImagingSystem, TheImageFollowsTheNavigation) {
     EXPECT_LT(std::abs(smooth.at("islr_range")), 1);
     EXPECT_LT(std::abs(smooth.at("autofocus_pslr_along")), 0.5);
     EXPECT_LT(std::abs(smooth.at("autofocus_islr_along")), 1);
-    for (const char* name : {"ins", "gps", "robust_ckf27"}) EXPECT_GT(windows.at(name).at(i).at("peak_loss"), smooth.at("peak_loss") + 6) << name;
+    for (const char* name : {"ins", "gps", "robust_ckf27"})
+      EXPECT_GT(windows.at(name).at(i).at("peak_loss"), smooth.at("peak_loss") + 6) << name;
   }
 }
 
 TEST(ImagingSystem, SaysWhatIsWrong) {
   expectRefused(imagingSuite("[ckf28]"), "ckf28");
   expectRefused(imagingSuite("[]"), "estimators");
-  expectRefused("{campaigns: [{name: images, system: imaging, scenario: " + kConfig + "scenarios/ins/survey.yaml, estimators: [ins], laws: [{name: clean}]}]}",
+  expectRefused("{campaigns: [{name: images, system: imaging, scenario: " + kConfig +
+                    "scenarios/ins/survey.yaml, estimators: [ins], laws: [{name: clean}]}]}",
                 "config");
-  expectRefused("{campaigns: [{name: images, system: imaging, scenario: " + kConfig + "scenarios/ins/survey.yaml, config: " + kConfig +
+  expectRefused("{campaigns: [{name: images, system: imaging, scenario: " + kConfig +
+                    "scenarios/ins/survey.yaml, config: " + kConfig +
                     "focus_survey.yaml, duration: 122, skip: 120, estimators: [ins], laws: [{name: clean}]}]}",
                 "duration");
 }

@@ -14,15 +14,17 @@ using testing::suiteOf;
 
 std::string insSuite(double duration, int runs, const std::string& estimators, const std::string& laws) {
   return "{runs: " + std::to_string(runs) +
-         ", campaigns: [{name: ins, system: ins_gps_dvl, scenario: " SAS_MOTION_SOURCE_DIR "/config/scenarios/ins/survey.yaml, duration: " +
+         ", campaigns: [{name: ins, system: ins_gps_dvl, scenario: " SAS_MOTION_SOURCE_DIR
+         "/config/scenarios/ins/survey.yaml, duration: " +
          std::to_string(duration) + ", skip: 60, estimators: " + estimators + ", laws: " + laws + "}]}";
 }
 
 TEST(InsSystem, FusionBeatsItsSensorsAndTheRobustFormOutliers) {
-  const auto suite =
-      suiteOf(insSuite(300, 4, "[gps, dvl, ckf27, robust_ckf27]", "[{name: clean}, {name: bad, noise: {law: contaminated, epsilon: 0.1, K: 30}}]"));
+  const auto suite = suiteOf(insSuite(300, 4, "[gps, dvl, ckf27, robust_ckf27]",
+                                      "[{name: clean}, {name: bad, noise: {law: contaminated, epsilon: 0.1, K: 30}}]"));
   const auto runs = runAll(suite);
-  for (const char* sensor : {"gps", "dvl"}) EXPECT_LT(rmse(suite, runs, "clean", "ckf27"), rmse(suite, runs, "clean", sensor)) << sensor;
+  for (const char* sensor : {"gps", "dvl"})
+    EXPECT_LT(rmse(suite, runs, "clean", "ckf27"), rmse(suite, runs, "clean", sensor)) << sensor;
   EXPECT_LT(rmse(suite, runs, "bad", "robust_ckf27"), 1.15 * rmse(suite, runs, "clean", "robust_ckf27"));
   EXPECT_GT(rmse(suite, runs, "bad", "ckf27"), 1.3 * rmse(suite, runs, "bad", "robust_ckf27"));
 }
@@ -48,7 +50,9 @@ TEST(InsScenario, ReadsItsFileAndRefusesWhatItDoesNotKnow) {
   EXPECT_DOUBLE_EQ(scenario.parameters.gyro_constant, 0.02 * kDegPerHour);
   EXPECT_DOUBLE_EQ(scenario.track.roll.amplitude, 3 * kRadPerDeg);
   EXPECT_EQ(scenario.parameters.dvl_lever_body, Vector<3>(0.3, 2, -0.5));
-  const auto refused = [](const std::string& text) { EXPECT_THROW(ins::Scenario::read(YamlSection::fromText(text, "test")), ConfigError) << text; };
+  const auto refused = [](const std::string& text) {
+    EXPECT_THROW(ins::Scenario::read(YamlSection::fromText(text, "test")), ConfigError) << text;
+  };
   refused("{system: usbl}");
   refused("{gps: {sigma: 2}}");
   refused("{gps: {white: [0, 1, 1]}}");
@@ -57,7 +61,8 @@ TEST(InsScenario, ReadsItsFileAndRefusesWhatItDoesNotKnow) {
   refused("{waves: {roll: {amplitude: 1}}}");
   refused("{dpc: {rate: -1}}");
   refused("{dpc: {side: aft}}");
-  const auto dpc = ins::Scenario::read(YamlSection::fromText("{dpc: {rate: 4, side: port, depression_deg: 30, lever_arm: [1, 2, 3]}}", "test"));
+  const auto dpc = ins::Scenario::read(
+      YamlSection::fromText("{dpc: {rate: 4, side: port, depression_deg: 30, lever_arm: [1, 2, 3]}}", "test"));
   EXPECT_DOUBLE_EQ(dpc.sensor(ins::Sensor::Dpc).rate, 4);
   EXPECT_TRUE(dpc.dpc.sightBody().isApprox(Vector<3>(-std::cos(kPi / 6), 0, -0.5)));
   EXPECT_EQ(dpc.parameters.dpc_lever_body, Vector<3>(1, 2, 3));

@@ -14,9 +14,12 @@ using testing::rmse;
 using testing::runAll;
 using testing::suiteOf;
 
-std::string sinsSuite(const std::string& scenario, double duration, int runs, const std::string& estimators, const std::string& laws) {
-  return "{runs: " + std::to_string(runs) + ", campaigns: [{name: sins, system: sins_dvl, scenario: " SAS_MOTION_SOURCE_DIR "/config/scenarios/sins_dvl/" +
-         scenario + ".yaml, particles: 100, duration: " + std::to_string(duration) + ", skip: 30, estimators: " + estimators + ", laws: " + laws + "}]}";
+std::string sinsSuite(const std::string& scenario, double duration, int runs, const std::string& estimators,
+                      const std::string& laws) {
+  return "{runs: " + std::to_string(runs) +
+         ", campaigns: [{name: sins, system: sins_dvl, scenario: " SAS_MOTION_SOURCE_DIR "/config/scenarios/sins_dvl/" +
+         scenario + ".yaml, particles: 100, duration: " + std::to_string(duration) +
+         ", skip: 30, estimators: " + estimators + ", laws: " + laws + "}]}";
 }
 
 TEST(SinsSystem, TheBoundIsWhatTheFilterReachesOnGaussianNoise) {
@@ -29,21 +32,24 @@ TEST(SinsSystem, TheBoundIsWhatTheFilterReachesOnGaussianNoise) {
 
 TEST(SinsSystem, TheRobustFormStandsOutliersOfTheDvl) {
   const auto suite =
-      suiteOf(sinsSuite("accuracy", 120, 4, "[ss_srupf, robust_ss_srupf]", "[{name: clean}, {name: bad, noise: {law: contaminated, epsilon: 0.1, K: 50}}]"));
+      suiteOf(sinsSuite("accuracy", 120, 4, "[ss_srupf, robust_ss_srupf]",
+                        "[{name: clean}, {name: bad, noise: {law: contaminated, epsilon: 0.1, K: 50}}]"));
   const auto runs = runAll(suite);
   EXPECT_LT(rmse(suite, runs, "bad", "robust_ss_srupf"), 1.2 * rmse(suite, runs, "clean", "robust_ss_srupf"));
   EXPECT_GT(rmse(suite, runs, "bad", "ss_srupf"), rmse(suite, runs, "bad", "robust_ss_srupf"));
 }
 
 TEST(SinsSystem, ReportsParticlesConvergenceAndDrift) {
-  const auto suite = suiteOf(sinsSuite("large_angle", 60, 1, "[ss_srupf, ukf, ckf27]", "[{name: five}, {name: thirty, heading_deg: 30}]"));
+  const auto suite = suiteOf(
+      sinsSuite("large_angle", 60, 1, "[ss_srupf, ukf, ckf27]", "[{name: five}, {name: thirty, heading_deg: 30}]"));
   EXPECT_EQ(suite.campaigns[0]->particles, 100);
   for (const auto& reports : runAll(suite)) {
     const auto& found = reports.front();
     ASSERT_EQ(found.errors.back().first, "drift_percent");
     EXPECT_LT(found.errors.back().second.rmse, 5);
     EXPECT_FALSE(found.diverged);
-    ASSERT_TRUE(found.effective_size && found.convergence && found.convergence->after && found.aperture_across && found.aperture_wavelengths);
+    ASSERT_TRUE(found.effective_size && found.convergence && found.convergence->after && found.aperture_across &&
+                found.aperture_wavelengths);
     EXPECT_GE(*found.effective_size, 50);
     EXPECT_GT(*found.convergence->after, 0) << "it begins 5 or 30 degrees off";
     EXPECT_LE(*found.convergence->after, 30) << "and stays for 30 s of 60";
@@ -107,7 +113,9 @@ TEST(SinsScenario, ReadsItsFilesAndRefusesWhatItDoesNotKnow) {
   EXPECT_DOUBLE_EQ(scenario.parameters.start_heading, 5 * kRadPerDeg);
   EXPECT_TRUE(scenario.misaligned_by_sigma);
   EXPECT_TRUE(scenario.track.along_bow);
-  const auto refused = [](const std::string& text) { EXPECT_THROW(sins::Scenario::read(YamlSection::fromText(text, "test")), ConfigError) << text; };
+  const auto refused = [](const std::string& text) {
+    EXPECT_THROW(sins::Scenario::read(YamlSection::fromText(text, "test")), ConfigError) << text;
+  };
   refused("{system: ins_gps_dvl}");
   refused("{gps: {rate: 1}}");
   refused("{dvl: {white: [0, 1, 1]}}");

@@ -15,7 +15,8 @@ const char* const kTwoLaws = "[{name: clean}, {name: bad, noise: {law: contamina
 
 TEST(Suite, TasksAreNumberedByCampaignLawAndSeed) {
   auto suite = suiteOf(
-      "{runs: 3, first_seed: 7, campaigns: [{name: a, system: constant_velocity, estimators: [kf], laws: [{name: x}, {name: y}]},"
+      "{runs: 3, first_seed: 7, campaigns: [{name: a, system: constant_velocity, estimators: [kf], laws: [{name: x}, "
+      "{name: y}]},"
       " {name: b, system: constant_velocity, estimators: [kf], laws: [{name: z}]}]}");
   EXPECT_EQ(suite.tasks(), 9u);
   EXPECT_EQ(suite.firstTask(1), 6u);
@@ -43,23 +44,37 @@ TEST(Suite, TheHashCoversAllButTheNumberOfRuns) {
 TEST(Suite, SaysWhatIsWrong) {
   expectRefused("{runs: 3}", "campaigns");
   expectRefused("{campaigns: [{name: a, system: balloon}]}", "balloon");
-  expectRefused("{campaigns: [{name: a, system: constant_velocity, estimators: [kalmann], laws: [{name: x}]}]}", "kalmann");
+  expectRefused("{campaigns: [{name: a, system: constant_velocity, estimators: [kalmann], laws: [{name: x}]}]}",
+                "kalmann");
   expectRefused("{campaigns: [{name: a, system: constant_velocity, estimators: [kf]}]}", "laws");
-  expectRefused("{campaigns: [{name: a, system: constant_velocity, estimators: [kf], skip: 200, laws: [{name: x}]}]}", "skip");
-  expectRefused("{campaigns: [{name: a, system: constant_velocity, estimators: [kf], laws: [{name: x, nois: {law: gaussian}}]}]}", "nois");
+  expectRefused("{campaigns: [{name: a, system: constant_velocity, estimators: [kf], skip: 200, laws: [{name: x}]}]}",
+                "skip");
+  expectRefused(
+      "{campaigns: [{name: a, system: constant_velocity, estimators: [kf], laws: [{name: x, nois: {law: gaussian}}]}]}",
+      "nois");
   expectRefused("{campaigns: [{system: towfish}]}", "name");
   expectRefused(zhuSuite(40, 1, "[kalmann]", kTwoLaws), "kalmann");
   expectRefused(zhuSuite(10, 1, "[kf]", kTwoLaws), "skip");
 }
 
 TEST(Suite, TheSuitesInTheRepositoryCanBeRead) {
-  const auto any = [](const std::string&, const towfish::Config& config) { return towfish::makeEstimator("kf", config); };  // some need the factor graph
-  const auto native = [](const std::string&) -> usbl::Fitter { return [](const auto& problem, const auto& options) { return usbl::fit(problem, options); }; };
-  const auto any_ins = [](const std::string&, const ins::Config& config) { return ins::makeEstimator("ckf27", config); };
-  const auto any_sins = [](const std::string&, const sins::Config& config) { return sins::makeEstimator("ckf27", config); };
+  const auto any = [](const std::string&, const towfish::Config& config) {
+    return towfish::makeEstimator("kf", config);
+  };  // some need the factor graph
+  const auto native = [](const std::string&) -> usbl::Fitter {
+    return [](const auto& problem, const auto& options) { return usbl::fit(problem, options); };
+  };
+  const auto any_ins = [](const std::string&, const ins::Config& config) {
+    return ins::makeEstimator("ckf27", config);
+  };
+  const auto any_sins = [](const std::string&, const sins::Config& config) {
+    return sins::makeEstimator("ckf27", config);
+  };
   int suites = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SAS_MOTION_SOURCE_DIR) / "config" / "suites")) {
-    ASSERT_NO_THROW(EXPECT_GT(Suite::fromFile(entry.path(), any, native, any_ins, any_sins).tasks(), 0u)) << entry.path();
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(SAS_MOTION_SOURCE_DIR) / "config" / "suites")) {
+    ASSERT_NO_THROW(EXPECT_GT(Suite::fromFile(entry.path(), any, native, any_ins, any_sins).tasks(), 0u))
+        << entry.path();
     ++suites;
   }
   EXPECT_GE(suites, 4);

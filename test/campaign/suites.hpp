@@ -15,7 +15,8 @@ namespace sas_motion::testing {
 /// A suite from text, read as a file of its own.
 inline Suite suiteOf(const std::string& text, const ins::EstimatorFactory& make_ins = ins::makeEstimator,
                      const sins::EstimatorFactory& make_sins = sins::makeEstimator) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / ("suite_" + std::to_string(std::hash<std::string>()(text)) + ".yaml");
+  const auto path = std::filesystem::path(::testing::TempDir()) /
+                    ("suite_" + std::to_string(std::hash<std::string>()(text)) + ".yaml");
   std::ofstream(path) << text;
   return Suite::fromFile(path, towfish::makeEstimator, {}, make_ins, make_sins);
 }
@@ -37,13 +38,14 @@ inline std::string zhuSuite(double duration, int runs, const std::string& estima
   std::string text((std::istreambuf_iterator<char>(original)), {});
   text.replace(text.find("duration: 600"), 13, "duration: " + std::to_string(duration));
   std::ofstream(scenario) << text;
-  return "{runs: " + std::to_string(runs) + ", campaigns: [{name: towfish, scenario: " + scenario.string() + ", skip: 20, estimators: " + estimators +
-         ", laws: " + laws + "}]}";
+  return "{runs: " + std::to_string(runs) + ", campaigns: [{name: towfish, scenario: " + scenario.string() +
+         ", skip: 20, estimators: " + estimators + ", laws: " + laws + "}]}";
 }
 
 /// Every run of a suite, on two threads.
 inline std::vector<std::vector<EstimatorReport>> runAll(const Suite& suite) {
-  std::cout << "seeds " << suite.first_seed << " to " << suite.first_seed + static_cast<std::uint64_t>(suite.runs) - 1 << "\n";
+  std::cout << "seeds " << suite.first_seed << " to " << suite.first_seed + static_cast<std::uint64_t>(suite.runs) - 1
+            << "\n";
   std::vector<std::vector<EstimatorReport>> all;
   inOrder(
       0, suite.tasks(), 2,
@@ -73,7 +75,8 @@ inline std::map<std::string, double> overBound(const Suite& suite) {
 }
 
 /// RMS position error of an estimator over all runs of a law, of a suite of one campaign.
-inline double rmse(const Suite& suite, const std::vector<std::vector<EstimatorReport>>& runs, const std::string& law, const std::string& estimator) {
+inline double rmse(const Suite& suite, const std::vector<std::vector<EstimatorReport>>& runs, const std::string& law,
+                   const std::string& estimator) {
   std::vector<double> errors;
   for (std::size_t task = 0; task < runs.size(); ++task) {
     if (suite.campaigns[0]->laws[suite.task(task).law].name != law) continue;

@@ -17,8 +17,9 @@ const char* const kContaminated = "noise: {law: contaminated, epsilon: 0.1, K: 1
 /// Figure-eights of 500 s.
 std::string usblSuite(int runs, const std::string& estimators, const std::string& laws, const std::string& more = "") {
   return "{runs: " + std::to_string(runs) +
-         ", campaigns: [{name: c, system: usbl, scenario: {duration: 500, track: {kind: figure_eight, radius: 56}}, estimators: " + estimators +
-         ", laws: " + laws + more + "}]}";
+         ", campaigns: [{name: c, system: usbl, scenario: {duration: 500, track: {kind: figure_eight, radius: 56}}, "
+         "estimators: " +
+         estimators + ", laws: " + laws + more + "}]}";
 }
 
 std::map<std::string, double> boundOf(const Suite& suite, std::size_t law) {
@@ -32,7 +33,8 @@ TEST(UsblSystem, ScoresTheLastHundredSecondsByUnknownTheMountingFirst) {
   EXPECT_EQ(report.samples, 100u);
   std::vector<std::string> groups;
   for (const auto& [name, summary] : report.errors) groups.push_back(name);
-  EXPECT_EQ(groups, (std::vector<std::string>{"mounting", "lever", "mounting_x", "mounting_y", "mounting_z", "lever_x", "lever_y", "lever_z"}));
+  EXPECT_EQ(groups, (std::vector<std::string>{"mounting", "lever", "mounting_x", "mounting_y", "mounting_z", "lever_x",
+                                              "lever_y", "lever_z"}));
   double square = 0;
   for (int i = 2; i < 5; ++i) square += std::pow(report.errors[static_cast<std::size_t>(i)].second.rmse, 2);
   EXPECT_NEAR(report.errors[0].second.rmse, std::sqrt(square), 1e-12);
@@ -41,20 +43,23 @@ TEST(UsblSystem, ScoresTheLastHundredSecondsByUnknownTheMountingFirst) {
 
 TEST(UsblSystem, OutliersHurtCkfMoreThanHvbckfWhateverTheMessagesState) {
   const std::string noise(kContaminated);
-  const auto suite =
-      suiteOf(usblSuite(12, "[ckf, oracle_ckf, hvbckf]",
-                        "[{name: right, " + noise + "}, {name: large, stated_factor: 25, " + noise + "}, {name: small, stated_factor: 0.04, " + noise + "}]"));
+  const auto suite = suiteOf(usblSuite(12, "[ckf, oracle_ckf, hvbckf]",
+                                       "[{name: right, " + noise + "}, {name: large, stated_factor: 25, " + noise +
+                                           "}, {name: small, stated_factor: 0.04, " + noise + "}]"));
   const auto runs = runAll(suite);
   for (const char* law : {"right", "large", "small"}) {
     EXPECT_LT(rmse(suite, runs, law, "hvbckf"), 0.6 * rmse(suite, runs, law, "ckf")) << law;
     EXPECT_LT(rmse(suite, runs, law, "oracle_ckf"), 0.6 * rmse(suite, runs, law, "ckf")) << law;
-    EXPECT_NEAR(rmse(suite, runs, law, "oracle_ckf"), rmse(suite, runs, "right", "oracle_ckf"), 1e-9) << "the oracle is told the truth";
+    EXPECT_NEAR(rmse(suite, runs, law, "oracle_ckf"), rmse(suite, runs, "right", "oracle_ckf"), 1e-9)
+        << "the oracle is told the truth";
   }
 }
 
 TEST(UsblSystem, TheBoundIsOfTheTrueNoiseAndNoOracleBeatsItOnCleanData) {
   const std::string noise(kContaminated);
-  const auto suite = suiteOf(usblSuite(40, "[oracle_ckf]", "[{name: clean}, {name: clean stated wrongly, stated_factor: 25}, {name: bad, " + noise + "}]"));
+  const auto suite = suiteOf(
+      usblSuite(40, "[oracle_ckf]",
+                "[{name: clean}, {name: clean stated wrongly, stated_factor: 25}, {name: bad, " + noise + "}]"));
   const auto clean = boundOf(suite, 0), misstated = boundOf(suite, 1), bad = boundOf(suite, 2);
   for (const auto& [name, value] : clean) {
     EXPECT_NEAR(misstated.at(name), value, 1e-9 * value) << name;
@@ -76,14 +81,18 @@ TEST(UsblSystem, TheBoundIsObservabilitysAtTheEnd) {
   for (const auto& labelled : usbl::simulatePings(scenario, 1)) problem.pings.push_back(labelled.ping);
   const auto expected = usbl::observability(problem, scenario.truth).bound;
   const auto bound = suite.campaigns[0]->bound(0, {1});
-  for (int i = 0; i < usbl::kStates; ++i) EXPECT_NEAR(bound[static_cast<std::size_t>(i) + 2].second, expected(i), 1e-9 * expected(i)) << i;
+  for (int i = 0; i < usbl::kStates; ++i)
+    EXPECT_NEAR(bound[static_cast<std::size_t>(i) + 2].second, expected(i), 1e-9 * expected(i)) << i;
 }
 
 TEST(UsblSystem, AFirstOutlierLocksAnUnguardedFilterInAndNoGuardedOne) {
-  const std::string laws = "[{name: first, noise: [{law: contaminated, epsilon: 0.1, K: 10}, {law: step, bias: 30, t0: 0, t1: 1.5}], stated_factor: 0.04}]";
+  const std::string laws =
+      "[{name: first, noise: [{law: contaminated, epsilon: 0.1, K: 10}, {law: step, bias: 30, t0: 0, t1: 1.5}], "
+      "stated_factor: 0.04}]";
   const auto locked = [&](const std::string& settings) {
     int count = 0;
-    for (const auto& reports : runAll(suiteOf(usblSuite(10, "[hvbckf]", laws, settings)))) count += reports[0].locked_out;
+    for (const auto& reports : runAll(suiteOf(usblSuite(10, "[hvbckf]", laws, settings))))
+      count += reports[0].locked_out;
     return count;
   };
   EXPECT_EQ(locked(""), 0);
@@ -112,7 +121,8 @@ TEST(UsblSystem, ACentredCircleIsNotTrustedAndItsDoubtCoversTheTruth) {
 
 TEST(UsblSystem, ModesAreSettings) {
   for (const char* mode : {"direction_cosines", "azimuth_elevation", "azimuth"}) {
-    const auto suite = suiteOf(usblSuite(3, "[hvbckf]", "[{name: clean}]", std::string(", settings: {mode: ") + mode + "}"));
+    const auto suite =
+        suiteOf(usblSuite(3, "[hvbckf]", "[{name: clean}]", std::string(", settings: {mode: ") + mode + "}"));
     const bool bounded = std::string(mode) != "azimuth";
     EXPECT_EQ(!boundOf(suite, 0).empty(), bounded);
     EXPECT_LT(rmse(suite, runAll(suite), "clean", "hvbckf"), 0.05 * kRadPerDeg * std::sqrt(3.0)) << mode;

@@ -23,11 +23,13 @@ constexpr const char* kJumps =
     " {name: spells, process: {law: manoeuvre, rate: 0.02, length: 3, K: 10}}]";
 
 /// Mean NEES of an estimator over the runs of a law, over its degrees of freedom.
-double nees(const Suite& suite, const std::vector<std::vector<EstimatorReport>>& runs, const std::string& law, const std::string& estimator) {
+double nees(const Suite& suite, const std::vector<std::vector<EstimatorReport>>& runs, const std::string& law,
+            const std::string& estimator) {
   std::vector<double> values;
   for (std::size_t task = 0; task < runs.size(); ++task)
     for (const auto& report : runs[task])
-      if (suite.campaigns[0]->laws[suite.task(task).law].name == law && report.estimator == estimator) values.push_back(report.nees.back().second);
+      if (suite.campaigns[0]->laws[suite.task(task).law].name == law && report.estimator == estimator)
+        values.push_back(report.nees.back().second);
   return mean(values);
 }
 
@@ -87,9 +89,10 @@ TEST(Oracle, ReachesTheBoundThatKnowsTheJumps) {
 }
 
 TEST(TowfishBound, CountsTheReadingsOfEachRunThatAreThere) {
-  const auto suite = suiteOf(zhuSuite(60, 1, "[kf]",
-                                      "[{name: clean}, {name: half, sensors: {position: {law: dropout, probability: 0.5}}},"
-                                      " {name: bursts, sensors: {position: {law: burst, rate: 0.05, length: 10, K: 20}}}]"));
+  const auto suite =
+      suiteOf(zhuSuite(60, 1, "[kf]",
+                       "[{name: clean}, {name: half, sensors: {position: {law: dropout, probability: 0.5}}},"
+                       " {name: bursts, sensors: {position: {law: burst, rate: 0.05, length: 10, K: 20}}}]"));
   EXPECT_GT(bound(suite, 1), 1.05 * bound(suite, 0));
   EXPECT_LT(bound(suite, 1), std::sqrt(2.0) * bound(suite, 0));
   EXPECT_GT(bound(suite, 2), 1.05 * bound(suite, 0));

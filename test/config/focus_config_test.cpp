@@ -27,7 +27,9 @@ void expectRefused(const std::string& text, const std::vector<std::string>& part
     read(text);
     ADD_FAILURE() << text << " was accepted";
   } catch (const ConfigError& error) {
-    for (const auto& part : parts) EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "'" << part << "' is not in: " << error.what();
+    for (const auto& part : parts)
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+          << "'" << part << "' is not in: " << error.what();
   }
 }
 
@@ -50,7 +52,8 @@ TEST(FocusConfig, TheFileWithTheDefaultsIsTheDefaults) {
 
 TEST(FocusConfig, ReadsWhatIsGiven) {
   const auto settings = read(
-      "{sonar_file: fine.yaml, aperture: {start: 0, duration: 5}, side: port, targets: [{range: 25}, {range: 28, along: -1}], speckle: {density: 100, block: "
+      "{sonar_file: fine.yaml, aperture: {start: 0, duration: 5}, side: port, targets: [{range: 25}, {range: 28, "
+      "along: -1}], speckle: {density: 100, block: "
       "{size: [1, 2, 3]}}}");
   EXPECT_EQ(settings.sonar.element, 0.05);
   EXPECT_EQ(settings.aperture.start, 0);
@@ -79,13 +82,16 @@ TEST(FocusGrid, HoldsAllTargetsAndTheirSideLobes) {
   settings.targets = {{25, 0}, {28, -2}};
   const ImageGrid grid = focusGrid(settings, 4.5, 64);
   for (const auto& place : targetPlaces(settings)) {
-    const double row = (place - grid.origin).dot(grid.range_axis) / grid.range_step, column = (place - grid.origin).dot(grid.along_axis) / grid.along_step;
+    const double row = (place - grid.origin).dot(grid.range_axis) / grid.range_step,
+                 column = (place - grid.origin).dot(grid.along_axis) / grid.along_step;
     EXPECT_GT(std::min(row, column), 64);
     EXPECT_LT(row, grid.rows - 64);
     EXPECT_LT(column, grid.columns - 64);
   }
-  EXPECT_NEAR(searchRadius(settings, grid, 64), (std::sqrt(28.0 * 28 - 100) - std::sqrt(25.0 * 25 - 100)) / 2, 1e-9) << "half way to the other";
-  EXPECT_GE(focusGrid(settings, 1000, 64).along_step, 0.4 * settings.sonar.element / 4) << "no finer than the beam lets see";
+  EXPECT_NEAR(searchRadius(settings, grid, 64), (std::sqrt(28.0 * 28 - 100) - std::sqrt(25.0 * 25 - 100)) / 2, 1e-9)
+      << "half way to the other";
+  EXPECT_GE(focusGrid(settings, 1000, 64).along_step, 0.4 * settings.sonar.element / 4)
+      << "no finer than the beam lets see";
   settings.image.range_step = 1e-9;
   EXPECT_THROW(focusGrid(settings, 4.5, 64), std::invalid_argument);
   settings.image = {};
@@ -107,8 +113,10 @@ TEST(FocusScene, ABlockHidesWhatIsBehindItAndNotTheTarget) {
   EXPECT_TRUE(scene.blocks[0].hides(sonar, target + Eigen::Vector3d(0, -1.8, 0)));
   double power = 0;
   for (const auto& scatterer : scene.scatterers) power += std::norm(scatterer.amplitude);
-  const double bottom = static_cast<double>(grid.pixels()) * grid.range_step * grid.along_step, faces = 0.5 + 2 * 0.5 + 2 * 0.25;
-  EXPECT_NEAR(power - 1, 0.01 * (bottom + 10 * faces), 0.1) << "-20 dB a square metre, the block's faces 10 times as much";
+  const double bottom = static_cast<double>(grid.pixels()) * grid.range_step * grid.along_step,
+               faces = 0.5 + 2 * 0.5 + 2 * 0.25;
+  EXPECT_NEAR(power - 1, 0.01 * (bottom + 10 * faces), 0.1)
+      << "-20 dB a square metre, the block's faces 10 times as much";
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ TEST(InsConfig, TheFileHoldsTheDefaults) {
                             s.surface,
                             s.imu_time_offset};
     for (int axis = 0; axis < 3; ++axis) all.insert(all.end(), {p.gps_markov(axis), p.gps_white(axis)});
-    for (const auto& m : s.messages) all.insert(all.end(), {m.floor, m.time_offset, m.override_message ? 1.0 : 0.0, m.enabled ? 1.0 : 0.0});
+    for (const auto& m : s.messages)
+      all.insert(all.end(), {m.floor, m.time_offset, m.override_message ? 1.0 : 0.0, m.enabled ? 1.0 : 0.0});
     return all;
   };
   const auto a = numbers(file), b = numbers(built_in);
@@ -69,8 +70,10 @@ TEST(InsConfig, TheFileHoldsTheDefaults) {
 
 TEST(InsConfig, KeysReachTheirMembersInSiUnits) {
   const Settings s = read(
-      "{imu: {rate: 200, gyro_constant_deg_h: 3, max_rate_deg: 180, time_offset: 0.01}, gps: {white: [1, 2, 3], floor: 0.2, override_message: true}, "
-      "dvl: {enabled: false, lever_sigma: 0.3}, depth: {surface: 36.5}, start: {heading_deg: 2, max_age: 3}, lag: 1, output_rate: 10}");
+      "{imu: {rate: 200, gyro_constant_deg_h: 3, max_rate_deg: 180, time_offset: 0.01}, gps: {white: [1, 2, 3], floor: "
+      "0.2, override_message: true}, "
+      "dvl: {enabled: false, lever_sigma: 0.3}, depth: {surface: 36.5}, start: {heading_deg: 2, max_age: 3}, lag: 1, "
+      "output_rate: 10}");
   const Parameters& p = s.session.config.parameters;
   EXPECT_DOUBLE_EQ(s.session.config.imu.period, 0.005);
   EXPECT_NEAR(p.gyro_constant, 3 * kRadPerDeg / 3600, 1e-18);
@@ -89,7 +92,8 @@ TEST(InsConfig, ErrorsNameKeyValueAndBound) {
   EXPECT_EQ(errorOf("{lag: -1}"), "test.yaml: lag is -1 but must be at least 0 and at most 3600");
   EXPECT_NE(errorOf("{gps: {whyte: 1}}").find("gps.whyte is no known key"), std::string::npos);
   EXPECT_NE(errorOf("{imu: {rate: 1}}").find("imu.rate is 1 but must be at least 10"), std::string::npos);
-  EXPECT_NE(errorOf("{dvl: {lever_arm: [0, 0, 0]}}").find("dvl.lever_arm is no known key"), std::string::npos);  // that is tf's
+  EXPECT_NE(errorOf("{dvl: {lever_arm: [0, 0, 0]}}").find("dvl.lever_arm is no known key"),
+            std::string::npos);  // that is tf's
   EXPECT_NE(errorOf("{system: usbl}").find("system is 'usbl' but must be ins_gps_dvl"), std::string::npos);
 }
 

@@ -55,24 +55,28 @@ std::vector<double> numbersOf(const Settings& s) {
                           s.shared.imu_time_offset,
                           s.config.particles.resample_below,
                           s.config.longest_step};
-  all.insert(all.end(), {double(s.config.particles.particles), double(s.config.particles.threads), double(s.config.particles.seed)});
+  all.insert(all.end(), {double(s.config.particles.particles), double(s.config.particles.threads),
+                         double(s.config.particles.seed)});
   all.push_back(s.config.accelerometer_bias ? 1 : 0);
   for (int axis = 0; axis < 3; ++axis) {
     all.push_back(p.dvl_white(axis));
     for (const auto& messages : s.shared.messages) all.push_back(messages.white(axis));
   }
-  for (const auto& m : s.shared.messages) all.insert(all.end(), {m.floor, m.time_offset, m.override_message ? 1.0 : 0.0, m.enabled ? 1.0 : 0.0});
+  for (const auto& m : s.shared.messages)
+    all.insert(all.end(), {m.floor, m.time_offset, m.override_message ? 1.0 : 0.0, m.enabled ? 1.0 : 0.0});
   return all;
 }
 
 TEST(SinsConfig, TheFileHoldsTheDefaults) {
-  const auto file = numbersOf(read(YamlSection::fromFile(SAS_MOTION_SOURCE_DIR "/config/sins_dvl.yaml"))), built_in = numbersOf(Settings());
+  const auto file = numbersOf(read(YamlSection::fromFile(SAS_MOTION_SOURCE_DIR "/config/sins_dvl.yaml"))),
+             built_in = numbersOf(Settings());
   for (std::size_t i = 0; i < file.size(); ++i) EXPECT_NEAR(file[i], built_in[i], 1e-12 * std::abs(built_in[i])) << i;
 }
 
 TEST(SinsConfig, KeysReachTheirMembersInSiUnits) {
   const Settings s = readText(
-      "{system: sins_dvl, imu: {rate: 200, gyro_constant_deg_h: 3}, dvl: {scale_percent: 1, angle_deg: 2, white: [1, 2, 3], floor: 0.5}, depth: {white: 0.3}, "
+      "{system: sins_dvl, imu: {rate: 200, gyro_constant_deg_h: 3}, dvl: {scale_percent: 1, angle_deg: 2, white: [1, "
+      "2, 3], floor: 0.5}, depth: {white: 0.3}, "
       "particles: {number: 50, threads: 2, seed: 9}, accelerometer_bias: false, start: {heading_deg: 30}, lag: 1}");
   EXPECT_DOUBLE_EQ(s.config.imu.period, 0.005);
   EXPECT_DOUBLE_EQ(s.shared.session.config.imu.period, 0.005);
@@ -91,9 +95,11 @@ TEST(SinsConfig, KeysReachTheirMembersInSiUnits) {
 }
 
 TEST(SinsConfig, ErrorsNameKeyValueAndBound) {
-  EXPECT_NE(errorOf("{particles: {number: 0}}").find("particles.number is 0 but must lie between 1 and"), std::string::npos);
+  EXPECT_NE(errorOf("{particles: {number: 0}}").find("particles.number is 0 but must lie between 1 and"),
+            std::string::npos);
   EXPECT_NE(errorOf("{start: {heading_deg: 120}}").find("start.heading_deg is 120 but must be"), std::string::npos);
-  EXPECT_NE(errorOf("{start: {position_sigma: 30}}").find("start.position_sigma is no known key"), std::string::npos);  // the fix is not fused
+  EXPECT_NE(errorOf("{start: {position_sigma: 30}}").find("start.position_sigma is no known key"),
+            std::string::npos);  // the fix is not fused
   EXPECT_NE(errorOf("{system: ins_gps_dvl}").find("system is 'ins_gps_dvl' but must be sins_dvl"), std::string::npos);
 }
 

@@ -18,7 +18,9 @@ void expectRefused(const std::string& text, const std::vector<std::string>& part
     read(text);
     ADD_FAILURE() << text << " was accepted";
   } catch (const ConfigError& error) {
-    for (const auto& part : parts) EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "'" << part << "' is not in: " << error.what();
+    for (const auto& part : parts)
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+          << "'" << part << "' is not in: " << error.what();
   }
 }
 
@@ -33,7 +35,8 @@ TEST(SonarConfig, TheFileWithTheDefaultsIsTheDefaults) {
 }
 
 TEST(SonarConfig, ReadsWhatIsGiven) {
-  const auto sonar = read("{receivers: 4, spacing: 0.08, ping_rate: 10, speed: 1.5, stop_and_hop: true, transmitter_body: [0.5, 0, -0.1]}");
+  const auto sonar = read(
+      "{receivers: 4, spacing: 0.08, ping_rate: 10, speed: 1.5, stop_and_hop: true, transmitter_body: [0.5, 0, -0.1]}");
   EXPECT_EQ(sonar.receivers, 4);
   EXPECT_TRUE(sonar.stop_and_hop);
   EXPECT_EQ(sonar.transmitter_body, Eigen::Vector3d(0.5, 0, -0.1));
@@ -54,7 +57,7 @@ TEST(SonarConfig, RefusesWithKeyValueAndBound) {
 }
 
 TEST(SonarConfig, RefusesAPingRateThatUndersamplesOrOverlaps) {
-  expectRefused("{speed: 6}", {"ping_rate", "8", "at least 15", "6 m/s"});                // 8 receivers bring 0.4 m of phase centres
+  expectRefused("{speed: 6}", {"ping_rate", "8", "at least 15", "6 m/s"});  // 8 receivers bring 0.4 m of phase centres
   expectRefused("{receivers: 1, speed: 1}", {"ping_rate", "8", "at least 20"});           // half an element a ping
   expectRefused("{ping_rate: 16}", {"ping_rate", "16", "at most 15.3846", "far_range"});  // 2 x 45 m / c + 5 ms
   EXPECT_NO_THROW(read("{receivers: 1, speed: 0.4}"));

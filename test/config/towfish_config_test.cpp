@@ -22,7 +22,9 @@ void expectRefused(const std::string& text, const std::vector<std::string>& part
     read(text);
     ADD_FAILURE() << text << " was accepted";
   } catch (const ConfigError& error) {
-    for (const auto& part : parts) EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "'" << part << "' is not in: " << error.what();
+    for (const auto& part : parts)
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+          << "'" << part << "' is not in: " << error.what();
   }
 }
 
@@ -60,7 +62,8 @@ TEST(TowfishConfig, RefusesWithFileKeyValueAndBound) {
   expectRefused("{lag: 2}", {"start.window", "lag", "2"});
   expectRefused("{sensors: {position: {sigma_deg: 1}}}", {"sensors.position.sigma_deg", "known"});
   for (const char* key : {"sigma_deg", "floor_deg", "override_message"})  // a turn rate has no weight
-    expectRefused(std::string("{sensors: {turn_rate: {") + key + ": 1}}}", {std::string("sensors.turn_rate.") + key, "model.heading_noise_deg"});
+    expectRefused(std::string("{sensors: {turn_rate: {") + key + ": 1}}}",
+                  {std::string("sensors.turn_rate.") + key, "model.heading_noise_deg"});
   expectRefused("{sensors: {sonar: {}}}", {"sensors.sonar"});
   expectRefused("{estimators: {robust_kf: {loss: hubert}}}", {"estimators.robust_kf.loss", "hubert", "huber"});
   expectRefused("{estimators: {robust_kf: {max_iterations: 0}}}", {"estimators.robust_kf.max_iterations", "0"});
@@ -73,7 +76,8 @@ TEST(TowfishConfig, RefusesWithFileKeyValueAndBound) {
 }
 
 TEST(TowfishConfig, WhatIsAcceptedMakesEveryFilter) {
-  for (const char* text : {"{estimators: {mixture_kf: {probabilities: [1, 0, 0, 0]}}}", "{reset_after: 1, estimators: {gated_kf: {probability: 0.5}}}",
+  for (const char* text : {"{estimators: {mixture_kf: {probabilities: [1, 0, 0, 0]}}}",
+                           "{reset_after: 1, estimators: {gated_kf: {probability: 0.5}}}",
                            "{estimators: {student_t_kf: {degrees_of_freedom: 1e9, max_iterations: 1}}}"}) {
     const Config config = read(text);
     EXPECT_NO_THROW(MixtureKalmanFilter<kStates>{config.mixture_kf}) << text;

@@ -73,9 +73,11 @@ TEST(UsblConfig, TakesWhatIsGiven) {
 }
 
 TEST(UsblConfig, ErrorsNameTheKeyAndWhatItMustBe) {
-  EXPECT_NE(errorOf("mode: bearings").find("mode is 'bearings' but must be one of direction_angles"), std::string::npos);
+  EXPECT_NE(errorOf("mode: bearings").find("mode is 'bearings' but must be one of direction_angles"),
+            std::string::npos);
   EXPECT_NE(errorOf("prior: {sigma: 3}").find("prior.sigma is no known key"), std::string::npos);
-  EXPECT_NE(errorOf("prior: {lever_arm_sigma: [1, 0, 1]}").find("prior.lever_arm_sigma must be numbers above 0"), std::string::npos);
+  EXPECT_NE(errorOf("prior: {lever_arm_sigma: [1, 0, 1]}").find("prior.lever_arm_sigma must be numbers above 0"),
+            std::string::npos);
   EXPECT_NE(errorOf("filters: {rho: 1.1}").find("filters.rho is 1.1"), std::string::npos);
   EXPECT_NE(errorOf("filters: {reweighting: both}").find("filters.reweighting is 'both'"), std::string::npos);
   EXPECT_NE(errorOf("fit: {loss: huge}").find("fit.loss is 'huge'"), std::string::npos);

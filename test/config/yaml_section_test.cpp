@@ -22,7 +22,8 @@ std::string messageOf(const std::string& text, const std::function<void(YamlSect
 }
 
 void expectNames(const std::string& message, const std::vector<std::string>& parts) {
-  for (const auto& part : parts) EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+  for (const auto& part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
 }
 
 double number = 0;
@@ -54,7 +55,9 @@ TEST(YamlSection, ReadsWhatIsThereAndKeepsTheRest) {
   EXPECT_NEAR(angle, 3.14159265358979, 1e-12);
 }
 
-TEST(YamlSection, AnUnknownKeyIsNamedWithTheKnownOnes) { expectNames(messageOf("{gain: 1, gian: 2}", readNumber), {"settings.yaml", "gian", "gain"}); }
+TEST(YamlSection, AnUnknownKeyIsNamedWithTheKnownOnes) {
+  expectNames(messageOf("{gain: 1, gian: 2}", readNumber), {"settings.yaml", "gian", "gain"});
+}
 
 TEST(YamlSection, OutOfRangeNamesFileKeyValueAndBound) {
   expectNames(messageOf("{gain: 11.5}", readNumber), {"settings.yaml", "gain", "11.5", "10"});

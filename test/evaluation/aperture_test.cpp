@@ -40,9 +40,10 @@ TEST(Aperture, OffsetAndSteadyDriftDoNotMatter) {
 
 TEST(Aperture, ASineOfManyPeriodsHasItsRootMeanSquare) {
   const double amplitude = 0.01;
-  const auto error = Series(
-                         400, [](double) { return 0; }, [&](double t) { return amplitude * std::sin(2 * kPi * t / 0.5); })
-                         .error();
+  const auto error =
+      Series(
+          400, [](double) { return 0; }, [&](double t) { return amplitude * std::sin(2 * kPi * t / 0.5); })
+          .error();
   EXPECT_NEAR(error.across, amplitude / std::sqrt(2.0), 0.01 * amplitude);
   EXPECT_LT(error.along, 1e-9);
 }

@@ -14,7 +14,8 @@ using testing::announced;
 using testing::relativeDifference;
 
 Transition<6> randomStep(Random& random) {
-  return {Vector<6>::Zero(), Matrix<6>::Identity() + 0.1 * testing::randomMatrix<6, 6>(random), 0.01 * testing::randomCovariance<6>(random)};
+  return {Vector<6>::Zero(), Matrix<6>::Identity() + 0.1 * testing::randomMatrix<6, 6>(random),
+          0.01 * testing::randomCovariance<6>(random)};
 }
 
 Matrix<6> inverse(const Matrix<6>& A) { return A.llt().solve(Matrix<6>::Identity()); }
@@ -80,14 +81,16 @@ TEST(PosteriorBound, StandsANearlySingularProcessNoise) {
     closed.measurement<2>({z});
     qr.measurement<2>({z});
   }
-  EXPECT_LT(relativeDifference(qr.information(), closed.information()), 1e-6);  // differences of numbers near 1e14 would leave two digits
+  EXPECT_LT(relativeDifference(qr.information(), closed.information()),
+            1e-6);  // differences of numbers near 1e14 would leave two digits
 }
 
 TEST(PosteriorBound, OfAConstantIsTheOrdinaryBound) {
   const Transition<2> still{Vector<2>::Zero(), Matrix<2>::Identity(), Matrix<2>::Zero()};
   PosteriorBound<2> bound(Matrix<2>::Zero());
   EXPECT_FALSE(bound.covariance());
-  LinearMeasurement<2, 1> north{Vector<1>::Zero(), Matrix<1, 2>(1, 0), Matrix<1>(4.0)}, east{Vector<1>::Zero(), Matrix<1, 2>(0, 1), Matrix<1>(9.0)};
+  LinearMeasurement<2, 1> north{Vector<1>::Zero(), Matrix<1, 2>(1, 0), Matrix<1>(4.0)},
+      east{Vector<1>::Zero(), Matrix<1, 2>(0, 1), Matrix<1>(9.0)};
   for (int i = 0; i < 100; ++i) {
     bound.step({still});
     bound.measurement<1>({north});
@@ -117,7 +120,8 @@ TEST(PosteriorBound, FallsWithInformationAndRisesWithProcessNoise) {
 
 TEST(PosteriorBound, IsReachedByTheKalmanFilterOnGaussianNoise) {
   std::cout << "seeds 1 to 400\n";
-  const Transition<2> drift{Vector<2>::Zero(), (Matrix<2>() << 1, 0.5, 0, 1).finished(), (Matrix<2>() << 0.05 / 24, 0.05 / 8, 0.05 / 8, 0.05 / 2).finished()};
+  const Transition<2> drift{Vector<2>::Zero(), (Matrix<2>() << 1, 0.5, 0, 1).finished(),
+                            (Matrix<2>() << 0.05 / 24, 0.05 / 8, 0.05 / 8, 0.05 / 2).finished()};
   const Matrix<2> root = drift.Q.llt().matrixL();
   const KalmanFilter<2> kalman;
   double squares = 0, bounds = 0;
@@ -131,7 +135,8 @@ TEST(PosteriorBound, IsReachedByTheKalmanFilterOnGaussianNoise) {
       auto step = drift;
       step.mean = drift.F * belief.mean;
       belief = kalman.predict(belief, step);
-      LinearMeasurement<2, 1> z{Vector<1>(truth(0) + random.gaussian() - belief.mean(0)), Matrix<1, 2>(1, 0), Matrix<1>(1.0)};
+      LinearMeasurement<2, 1> z{Vector<1>(truth(0) + random.gaussian() - belief.mean(0)), Matrix<1, 2>(1, 0),
+                                Matrix<1>(1.0)};
       belief = kalman.update(belief, z).belief;
       bound.step({step});
       bound.measurement<1>({z});

@@ -20,7 +20,8 @@ double factor(const NoiseMix& mix) { return MeasurementInformation(mix).factor()
 
 double phi(double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)) / (sigma * std::sqrt(2 * kPi)); }
 
-/// Simpson's rule on a uniform grid for the integral of f'^2 / f, with a derivative by differences: shares nothing with what it tests.
+/// Simpson's rule on a uniform grid for the integral of f'^2 / f, with a derivative by differences: shares nothing with
+/// what it tests.
 template <class Density>
 double byDifferences(Density&& f, double from, double to, int intervals) {
   const double h = (to - from) / intervals;
@@ -40,7 +41,8 @@ TEST(MeasurementInformation, IsOneForGaussianNoiseAndForContaminationThatIsNone)
 }
 
 TEST(MeasurementInformation, OfStudentsTIsThePublishedOne) {
-  for (const double nu : {1.0, 2.0, 3.0, 4.0, 10.0, 100.0, 1e5}) EXPECT_NEAR(factor(studentT(nu)), (nu + 1) / (nu + 3), 1e-8) << nu;
+  for (const double nu : {1.0, 2.0, 3.0, 4.0, 10.0, 100.0, 1e5})
+    EXPECT_NEAR(factor(studentT(nu)), (nu + 1) / (nu + 3), 1e-8) << nu;
 }
 
 TEST(MeasurementInformation, OfContaminationIsThatOfAnIndependentQuadrature) {
@@ -69,7 +71,8 @@ TEST(MeasurementInformation, OfMultipathIsThatOfAConvolutionByHand) {
   const auto noise = law(Kind::Multipath, {{&NoiseLaw::probability, 0.2}, {&NoiseLaw::mean, 5}});
   const auto f = [](double x) {
     double sum = 0;
-    for (int i = 0; i < 400; ++i) sum += phi(x - 0.1 * (i + 0.5), 1) * std::exp(-0.02 * (i + 0.5)) * 0.2 * 0.1;  // midpoints to 40
+    for (int i = 0; i < 400; ++i)
+      sum += phi(x - 0.1 * (i + 0.5), 1) * std::exp(-0.02 * (i + 0.5)) * 0.2 * 0.1;  // midpoints to 40
     return 0.8 * phi(x, 1) + 0.2 * sum;
   };
   EXPECT_NEAR(factor(noise), byDifferences(f, -12, 39, 4000), 1e-3);

@@ -16,7 +16,8 @@ using Kind = NoiseLaw::Kind;
 /// Sum of probabilities, mean and variance of a row's terms.
 Vector<3> moments(const std::vector<NoiseTerm>& terms) {
   Vector<3> sum = Vector<3>::Zero();
-  for (const auto& [variance, probability, mean] : terms) sum += probability * Vector<3>(1, mean, variance + mean * mean);
+  for (const auto& [variance, probability, mean] : terms)
+    sum += probability * Vector<3>(1, mean, variance + mean * mean);
   return {sum(0), sum(1), sum(2) - sum(1) * sum(1)};
 }
 
@@ -53,7 +54,8 @@ TEST(LawAware, StudentsTermsHaveThePrecisionOfTheLaw) {
 }
 
 TEST(LawAware, MultipathKeepsMeanAndVariance) {
-  const auto terms = lawAware(law(Kind::Multipath, {{&NoiseLaw::probability, 0.2}, {&NoiseLaw::mean, 5}}), {}, 0.1).measurement;
+  const auto terms =
+      lawAware(law(Kind::Multipath, {{&NoiseLaw::probability, 0.2}, {&NoiseLaw::mean, 5}}), {}, 0.1).measurement;
   const auto sum = moments(terms);
   EXPECT_NEAR(sum(0), 1, 1e-12);
   EXPECT_NEAR(sum(1), 1, 1e-12);                     // 0.2 of 5
@@ -78,7 +80,8 @@ TEST(LawAware, SpellsBecomeAModeAndManoeuvresAScaleThatLasts) {
   EXPECT_FALSE(both.bias);
   EXPECT_DOUBLE_EQ(both.rate, 0.03);
   EXPECT_EQ(both.length, 10);
-  const auto manoeuvre = lawAware({}, law(Kind::Manoeuvre, {{&NoiseLaw::rate, 0.02}, {&NoiseLaw::length, 5}, {&NoiseLaw::K, 10}}), 0.1);
+  const auto manoeuvre =
+      lawAware({}, law(Kind::Manoeuvre, {{&NoiseLaw::rate, 0.02}, {&NoiseLaw::length, 5}, {&NoiseLaw::K, 10}}), 0.1);
   const double share = 0.1 / 1.1;
   EXPECT_NEAR((1 - manoeuvre.persistence) * (1 - share), 0.1 / 5, 1e-12);  // one epoch in fifty is a manoeuvre's last
   EXPECT_NEAR((1 - manoeuvre.persistence) * share, 0.1 * 0.02, 1e-12);     // and they begin at their rate

@@ -21,10 +21,12 @@ const Gaussian<kN> kPrior{Vector<kN>(31, 18), 4 * Matrix<kN>::Identity()};
 const Vector<kM> kVariance(0.25, 1e-4), kPresent(1, 1);
 
 Vector<kM> reading(Random& random, double factor = 1) {
-  return rangeAndBearing(kTruth) + Vector<kM>(std::sqrt(factor * kVariance(0)) * random.gaussian(), std::sqrt(factor * kVariance(1)) * random.gaussian());
+  return rangeAndBearing(kTruth) + Vector<kM>(std::sqrt(factor * kVariance(0)) * random.gaussian(),
+                                              std::sqrt(factor * kVariance(1)) * random.gaussian());
 }
 
-Update<Belief, kM> updated(const AdaptiveCubatureOptions& options, const Belief& prior, const Vector<kM>& z, const Vector<kM>& present = kPresent) {
+Update<Belief, kM> updated(const AdaptiveCubatureOptions& options, const Belief& prior, const Vector<kM>& z,
+                           const Vector<kM>& present = kPresent) {
   return Filter(options).update(prior, z, kVariance, present, rangeAndBearing, PlainDifference());
 }
 
@@ -38,7 +40,8 @@ TEST(AdaptiveCubatureFilter, WithNeitherPartIsTheCubatureKalmanFilter) {
   Random random = testing::announced(1);
   const Vector<kM> z = reading(random);
   const auto ours = updated({}, Belief(kPrior), z);
-  const auto ckf = CubatureKalmanFilter<kN>(cubaturePoints<kN>()).update<kM>(kPrior, z, rangeAndBearing, Matrix<kM>(kVariance.asDiagonal()));
+  const auto ckf = CubatureKalmanFilter<kN>(cubaturePoints<kN>())
+                       .update<kM>(kPrior, z, rangeAndBearing, Matrix<kM>(kVariance.asDiagonal()));
   EXPECT_LT((ours.belief.state.mean - ckf.belief.mean).norm(), 1e-13);
   EXPECT_LT((ours.belief.state.covariance - ckf.belief.covariance).norm(), 1e-13);
   EXPECT_NEAR(ours.nis, ckf.nis, 1e-12);
@@ -47,7 +50,10 @@ TEST(AdaptiveCubatureFilter, WithNeitherPartIsTheCubatureKalmanFilter) {
 TEST(AdaptiveCubatureFilter, AWideHuberLossChangesNothing) {
   Random random = testing::announced(2);
   const Vector<kM> z = reading(random);
-  EXPECT_LT((updated(huber(1e9), Belief(kPrior), z).belief.state.mean - updated({}, Belief(kPrior), z).belief.state.mean).norm(), 1e-12);
+  EXPECT_LT(
+      (updated(huber(1e9), Belief(kPrior), z).belief.state.mean - updated({}, Belief(kPrior), z).belief.state.mean)
+          .norm(),
+      1e-12);
 }
 
 TEST(AdaptiveCubatureFilter, CertainNoiseStaysAsItIs) {
@@ -59,7 +65,8 @@ TEST(AdaptiveCubatureFilter, CertainNoiseStaysAsItIs) {
   Belief prior(kPrior);
   prior.noise = VariationalNoise<kM>(Vector<kM>::Ones(), 1e12);
   const Vector<kM> z = reading(random);
-  EXPECT_LT((updated(adaptive, prior, z).belief.state.mean - updated({}, Belief(kPrior), z).belief.state.mean).norm(), 1e-9);
+  EXPECT_LT((updated(adaptive, prior, z).belief.state.mean - updated({}, Belief(kPrior), z).belief.state.mean).norm(),
+            1e-9);
 }
 
 TEST(AdaptiveCubatureFilter, BothWaysOfReweightingMeetAtTheFixedPoint) {
@@ -69,9 +76,13 @@ TEST(AdaptiveCubatureFilter, BothWaysOfReweightingMeetAtTheFixedPoint) {
   auto by_covariance = huber(), by_observation = huber();
   by_observation.reweighting = Reweighting::Observation;
   by_covariance.iterations = by_observation.iterations = 1;
-  const auto once = (updated(by_covariance, Belief(kPrior), z).belief.state.mean - updated(by_observation, Belief(kPrior), z).belief.state.mean).norm();
+  const auto once = (updated(by_covariance, Belief(kPrior), z).belief.state.mean -
+                     updated(by_observation, Belief(kPrior), z).belief.state.mean)
+                        .norm();
   by_covariance.iterations = by_observation.iterations = 200;
-  const auto converged = (updated(by_covariance, Belief(kPrior), z).belief.state.mean - updated(by_observation, Belief(kPrior), z).belief.state.mean).norm();
+  const auto converged = (updated(by_covariance, Belief(kPrior), z).belief.state.mean -
+                          updated(by_observation, Belief(kPrior), z).belief.state.mean)
+                             .norm();
   EXPECT_GT(once, 1e-3);
   EXPECT_LT(converged, 1e-6);
 }
@@ -83,14 +94,16 @@ TEST(AdaptiveCubatureFilter, AnAbsentRowDoesNotCountWhateverItsValue) {
   auto options = huber();
   options.adaptive = options.calibrate = true;
   const Vector<kM> range_alone(1, 0);
-  const auto a = updated(options, Belief(kPrior), z, range_alone), b = updated(options, Belief(kPrior), other, range_alone);
+  const auto a = updated(options, Belief(kPrior), z, range_alone),
+             b = updated(options, Belief(kPrior), other, range_alone);
   EXPECT_EQ(a.belief.state.mean, b.belief.state.mean);
   EXPECT_EQ(a.belief.state.covariance, b.belief.state.covariance);
   EXPECT_EQ(a.belief.noise.factor(0)(1), 1);
   EXPECT_LT(a.belief.state.covariance.determinant(), kPrior.covariance.determinant()) << "the row that is there counts";
 }
 
-/// Mean over the last readings of many of the noise estimate, of good noise `factor` times the stated variance with a share of outliers.
+/// Mean over the last readings of many of the noise estimate, of good noise `factor` times the stated variance with a
+/// share of outliers.
 Vector<kM> learnt(AdaptiveCubatureOptions options, double factor, double outliers) {
   Random random(6);
   options.adaptive = true;
@@ -112,7 +125,8 @@ TEST(AdaptiveCubatureFilter, LearnsTheScaleOfTheNoise) {
   for (const double factor : {0.04, 1.0, 25.0})
     for (int row = 0; row < kM; ++row) {
       EXPECT_NEAR(learnt({}, factor, 0)(row) / factor, 1, 0.06);
-      EXPECT_NEAR(learnt(huber(), factor, 0)(row) / factor, 0.96, 0.06) << "the mixture takes a little of good noise for bad";
+      EXPECT_NEAR(learnt(huber(), factor, 0)(row) / factor, 0.96, 0.06)
+          << "the mixture takes a little of good noise for bad";
     }
 }
 
@@ -143,7 +157,8 @@ TEST(AdaptiveCubatureFilter, TheTrendTakesBackTheLateness) {
     constexpr int kReadings = 300;
     for (int k = 0; k < kReadings; ++k) {
       const double factor = std::exp(0.011 * k);
-      belief = filter.update(belief, reading(random, factor), kVariance, kPresent, rangeAndBearing, PlainDifference()).belief;
+      belief = filter.update(belief, reading(random, factor), kVariance, kPresent, rangeAndBearing, PlainDifference())
+                   .belief;
       if (k >= 100) sum += std::log(belief.noise.factor(trend).prod() / (factor * factor)) / 2 / (kReadings - 100);
     }
     return sum;

@@ -23,7 +23,8 @@
 #include "support.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SAS_MOTION_CANNOT_COUNT "the address and the thread sanitizer bring their own malloc, so allocations cannot be counted"
+#define SAS_MOTION_CANNOT_COUNT \
+  "the address and the thread sanitizer bring their own malloc, so allocations cannot be counted"
 #elif !defined(__GLIBC__)
 #define SAS_MOTION_CANNOT_COUNT "the counter stands on glibc's __libc_malloc, which is not here"
 #endif
@@ -90,7 +91,8 @@ void expectNoAllocation(const std::string& name, usbl::Mode mode) {
   config.mode = mode;
   const usbl::CubatureFilter filter(*usbl::filterOptions(name, config));
   const usbl::Model model(mode);
-  usbl::CubatureFilter::Belief belief(Gaussian<usbl::kStates>{usbl::State::Zero(), config.prior.sigma.head<usbl::kStates>().cwiseAbs2().asDiagonal()});
+  usbl::CubatureFilter::Belief belief(
+      Gaussian<usbl::kStates>{usbl::State::Zero(), config.prior.sigma.head<usbl::kStates>().cwiseAbs2().asDiagonal()});
   const Matrix<usbl::kStates> Q = 1e-12 * Matrix<usbl::kStates>::Identity();
   const auto difference = [&](const Vector<3>& y, const Vector<3>& x) { return model.difference(y, x); };
   const long before = allocations;
@@ -133,7 +135,8 @@ class Allocation : public ::testing::Test {
 TEST_F(Allocation, MechanisationUsesNoHeap) {
   Mechanisation ins({}, 0, {});
   const long before = allocations;
-  for (int k = 1; k <= 100; ++k) ins.step({k * kNanosecondsPerSecond / 100, Vector<3>(0.01, 0, 0.02), Vector<3>(0, 0, 9.8)});
+  for (int k = 1; k <= 100; ++k)
+    ins.step({k * kNanosecondsPerSecond / 100, Vector<3>(0.01, 0, 0.02), Vector<3>(0, 0, 9.8)});
   EXPECT_EQ(allocations - before, 0);
   EXPECT_EQ(ins.stamp(), kNanosecondsPerSecond);
 }
@@ -169,7 +172,8 @@ TEST_F(Allocation, PredictAndUpdateUseNoHeap) {
   expectNoAllocation("ckf", SigmaPointFilter(cubaturePoints<kStates>()));
   expectNoAllocation("ukf", SigmaPointFilter(unscentedPoints<kStates>({})));
   for (const auto& name : usbl::filterNames())
-    for (const usbl::Mode mode : {usbl::Mode::DirectionAngles, usbl::Mode::DirectionCosines, usbl::Mode::AzimuthElevation, usbl::Mode::Azimuth})
+    for (const usbl::Mode mode :
+         {usbl::Mode::DirectionAngles, usbl::Mode::DirectionCosines, usbl::Mode::AzimuthElevation, usbl::Mode::Azimuth})
       expectNoAllocation(name, mode);
   for (const auto& name : lossNames())
     for (const bool process : {false, true}) {
@@ -177,7 +181,8 @@ TEST_F(Allocation, PredictAndUpdateUseNoHeap) {
       options.loss = Loss(lossFromName(name));
       options.robustify_process = process;
       expectNoAllocation(name.c_str(), RobustKalmanFilter<kStates>(options));
-      expectNoAllocation(("calibrated " + name).c_str(), CalibratedFilter<RobustKalmanFilter<kStates>, kStates>(RobustKalmanFilter<kStates>(options)));
+      expectNoAllocation(("calibrated " + name).c_str(),
+                         CalibratedFilter<RobustKalmanFilter<kStates>, kStates>(RobustKalmanFilter<kStates>(options)));
     }
 }
 

@@ -46,7 +46,9 @@ struct Voyage {
     for (int i = 0; i < count; ++i) step(wrong);
   }
   /// Position error of an axis over its standard deviation.
-  double error(int axis) const { return std::abs(belief.summary.mean(axis) - truth(axis)) / std::sqrt(belief.summary.covariance(axis, axis)); }
+  double error(int axis) const {
+    return std::abs(belief.summary.mean(axis) - truth(axis)) / std::sqrt(belief.summary.covariance(axis, axis));
+  }
 };
 
 TEST(BankKalmanFilter, IsTheKalmanFilterWhereNothingIsExpectedToGoWrong) {

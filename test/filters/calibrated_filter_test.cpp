@@ -39,7 +39,8 @@ Simulated simulate(Random& random, double share, double K, double scale = 1, int
     const auto step = model.transition(x);
     x = step.mean + step.Q.llt().matrixL() * testing::randomMatrix<6>(random);
     Vector<4> z = x.head<4>();
-    for (int row = 0; row < 4; ++row) z(row) += model.sigma()(row) * random.gaussian() * (random.uniform() < share ? K : scale);
+    for (int row = 0; row < 4; ++row)
+      z(row) += model.sigma()(row) * random.gaussian() * (random.uniform() < share ? K : scale);
     run.truth.push_back(x);
     run.z.push_back(z);
   }
@@ -53,7 +54,8 @@ void follow(const Filter& filter, const Simulated& run, See&& see) {
   typename Filter::Belief belief{Gaussian<6>()};
   for (std::size_t k = 0; k < run.z.size(); ++k) {
     belief = filter.predict(belief, model.transition(gaussian(belief).mean));
-    belief = filter.update(belief, model.measurement(run.z[k], gaussian(belief).mean, 0.5 * static_cast<double>(k))).belief;
+    belief =
+        filter.update(belief, model.measurement(run.z[k], gaussian(belief).mean, 0.5 * static_cast<double>(k))).belief;
     see(k, gaussian(belief));
   }
 }
@@ -81,7 +83,8 @@ double nees(const Filter& filter, double share, double K) {
 }
 
 template <class Filter>
-void expectTheSame(const Filter& filter, const std::vector<Gaussian<6>>& expected, const Simulated& run, const char* what) {
+void expectTheSame(const Filter& filter, const std::vector<Gaussian<6>>& expected, const Simulated& run,
+                   const char* what) {
   const auto found = answers(filter, run);
   for (std::size_t k = 0; k < expected.size(); ++k) {
     ASSERT_EQ(found[k].mean, expected[k].mean) << what << ", epoch " << k;
@@ -95,7 +98,8 @@ TEST(CalibratedFilter, MeansAreTheFiltersOwnToTheLastBit) {
   for (const auto& name : lossNames()) {
     const Robust inner(robust(Loss(lossFromName(name))));
     const auto plain = answers(inner, run), calibrated = answers(CalibratedFilter<Robust, 6>(inner), run);
-    for (std::size_t k = 0; k < plain.size(); ++k) ASSERT_EQ(plain[k].mean, calibrated[k].mean) << name << ", epoch " << k;
+    for (std::size_t k = 0; k < plain.size(); ++k)
+      ASSERT_EQ(plain[k].mean, calibrated[k].mean) << name << ", epoch " << k;
   }
 }
 
@@ -115,7 +119,8 @@ TEST(CalibratedFilter, OnePassAndProcessWeightsAreLeftAsTheyAre) {
     auto options = robust(Loss(LossKind::Huber));
     options.max_iterations = iterations;
     options.robustify_process = process;
-    expectTheSame(CalibratedFilter<Robust, 6>(Robust(options)), answers(Robust(options), run), run, process ? "process" : "one pass");
+    expectTheSame(CalibratedFilter<Robust, 6>(Robust(options)), answers(Robust(options), run), run,
+                  process ? "process" : "one pass");
   }
 }
 
@@ -131,7 +136,8 @@ TEST(CalibratedFilter, WhereNothingIsClippedItIsTheKalmanFilterHoweverNoisyTheRe
         ASSERT_LT(relativeDifference(found[k].covariance, kalman[k].covariance), 1e-6) << what << ", epoch " << k;
       }
     };
-    for (const auto& name : lossNames()) expectKalman(CalibratedFilter<Robust, 6>(Robust(robust(Loss(lossFromName(name), name == "l2" ? 1 : 1e9)))), name);
+    for (const auto& name : lossNames())
+      expectKalman(CalibratedFilter<Robust, 6>(Robust(robust(Loss(lossFromName(name), name == "l2" ? 1 : 1e9)))), name);
     expectKalman(CalibratedFilter<StudentT, 6>(StudentT({1e9, 30, 1e-9, true})), "student_t");
   }
 }

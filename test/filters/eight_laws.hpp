@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The constant-velocity problem under eight noise laws: three axes at 2 Hz, the position measured in each and the velocity in the first.
+// The constant-velocity problem under eight noise laws: three axes at 2 Hz, the position measured in each and the
+// velocity in the first.
 #pragma once
 
 #include <Eigen/Cholesky>

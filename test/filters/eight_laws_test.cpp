@@ -97,8 +97,8 @@ std::pair<double, double> ratioAndNees(const EightLaw& law, BurstSize bursts = B
   }
   const std::pair<double, double> result{std::sqrt(score.squares / oracle.squares), score.nees / (30 * 280.0)};
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  std::cout << law.name << ": RMSE over the oracle's " << result.first << ", NEES per state " << result.second << ", " << seconds.count()
-            << " s, seeds 1 to 30\n";
+  std::cout << law.name << ": RMSE over the oracle's " << result.first << ", NEES per state " << result.second << ", "
+            << seconds.count() << " s, seeds 1 to 30\n";
   return result;
 }
 

@@ -83,7 +83,8 @@ class EveryFilter : public ::testing::Test {
   }
 };
 
-using Filters = ::testing::Types<Kf, Bank, Gated, Mixture, StudentT, Huber, Tukey, HuberBoth, CalibratedHuber, CalibratedTukey, CalibratedStudentT, Sum>;
+using Filters = ::testing::Types<Kf, Bank, Gated, Mixture, StudentT, Huber, Tukey, HuberBoth, CalibratedHuber,
+                                 CalibratedTukey, CalibratedStudentT, Sum>;
 TYPED_TEST_SUITE(EveryFilter, Filters);
 
 TYPED_TEST(EveryFilter, RefusesWhatIsNoMeasurementAndStaysAtThePrior) {
@@ -151,7 +152,8 @@ TYPED_TEST(EveryFilter, UnitsDoNotMatter) {
   const Matrix<6> T = scale.asDiagonal(), T_inverse = scale.cwiseInverse().asDiagonal();
   for (int i = 0; i < 20; ++i) {
     auto prior = testing::randomBelief<6>(random);
-    prior.covariance = prior.covariance.diagonal().asDiagonal();  // the symmetric root of a scaled full matrix is another root
+    prior.covariance =
+        prior.covariance.diagonal().asDiagonal();  // the symmetric root of a scaled full matrix is another root
     auto z = testing::randomMeasurement<6, 2>(random);
     z.innovation *= 8;
     auto scaled = z;
@@ -162,7 +164,9 @@ TYPED_TEST(EveryFilter, UnitsDoNotMatter) {
     const auto plain = this->filter.update({prior}, z);
     const auto other = this->filter.update({scaled_prior}, scaled);
     EXPECT_LT(testing::relativeDifference(T_inverse * gaussian(other.belief).mean, gaussian(plain.belief).mean), 1e-6);
-    EXPECT_LT(testing::relativeDifference(T_inverse * gaussian(other.belief).covariance * T_inverse, gaussian(plain.belief).covariance), 1e-6);
+    EXPECT_LT(testing::relativeDifference(T_inverse * gaussian(other.belief).covariance * T_inverse,
+                                          gaussian(plain.belief).covariance),
+              1e-6);
     EXPECT_NEAR(other.nis, plain.nis, 1e-9 * plain.nis);
     EXPECT_LT((other.weights - plain.weights).cwiseAbs().maxCoeff(), 1e-6);
     EXPECT_EQ(other.verdict, plain.verdict);

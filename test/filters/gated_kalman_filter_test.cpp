@@ -47,14 +47,16 @@ TEST(GatedKalmanFilter, TheGateLetsThroughItsShareOfGoodReadings) {
     const GatedKalmanFilter<6> filter(options);
     const int draws = 20000;
     int rejected = 0;
-    for (int i = 0; i < draws; ++i) rejected += filter.update(Gaussian<6>(), reading(Gaussian<6>(), random.gaussian())).verdict == Verdict::Rejected;
+    for (int i = 0; i < draws; ++i)
+      rejected += filter.update(Gaussian<6>(), reading(Gaussian<6>(), random.gaussian())).verdict == Verdict::Rejected;
     const double sigma = std::sqrt(draws * probability * (1 - probability));
     EXPECT_NEAR(rejected, draws * (1 - probability), 4 * sigma);
   }
 }
 
 TEST(GatedKalmanFilter, RefusesAProbabilityOutsideZeroToOne) {
-  for (const double bad : {0.0, 1.0, -0.5, std::nan("")}) EXPECT_THROW(GatedKalmanFilter<6>({bad}), std::invalid_argument) << bad;
+  for (const double bad : {0.0, 1.0, -0.5, std::nan("")})
+    EXPECT_THROW(GatedKalmanFilter<6>({bad}), std::invalid_argument) << bad;
 }
 
 }  // namespace

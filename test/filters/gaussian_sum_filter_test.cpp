@@ -22,7 +22,8 @@ TEST(GaussianSumFilter, WithOneTermEachIsTheKalmanFilter) {
   Gaussian<6> a = testing::randomBelief<6>(random);
   GaussianSum<6> b{a};
   for (int i = 0; i < 200; ++i) {
-    Transition<6> step{Vector<6>::Zero(), Matrix<6>::Identity() + 0.1 * testing::randomMatrix<6, 6>(random), 0.01 * testing::randomCovariance<6>(random)};
+    Transition<6> step{Vector<6>::Zero(), Matrix<6>::Identity() + 0.1 * testing::randomMatrix<6, 6>(random),
+                       0.01 * testing::randomCovariance<6>(random)};
     step.mean = step.F * a.mean;
     a = kalman.predict(a, step);
     b = sum.predict(b, step);
@@ -81,7 +82,9 @@ TEST(GaussianSumFilter, MergingKeepsMeanAndCovariance) {
   GaussianSum<6> sum;
   sum.blocks.emplace_back();
   auto& block = sum.blocks.front();
-  for (int i = 0; i < 30; ++i) block.hypotheses.push_back({testing::randomMatrix<6>(random), testing::randomCovariance<6>(random), random.gaussian(), 0, 0});
+  for (int i = 0; i < 30; ++i)
+    block.hypotheses.push_back(
+        {testing::randomMatrix<6>(random), testing::randomCovariance<6>(random), random.gaussian(), 0, 0});
   sum.summarize();
   const auto before = sum.summary;
   block.reduce(30, 4);
@@ -132,7 +135,8 @@ TEST(GaussianSumFilter, OnlyTheBiasedRowIsNotBelieved) {
   EXPECT_LT(std::abs(belief.summary.mean(0)), 0.1);
 }
 
-TEST(GaussianSumFilter, WhatNothingCouplesIsFollowedApart) {  // with what is merged and left out, so that it is not the exact posterior
+TEST(GaussianSumFilter,
+     WhatNothingCouplesIsFollowedApart) {  // with what is merged and left out, so that it is not the exact posterior
   GaussianSumOptions options;
   options.measurement = studentTerms(3);
   const GaussianSumFilter<6> all(options);
@@ -145,7 +149,9 @@ TEST(GaussianSumFilter, WhatNothingCouplesIsFollowedApart) {  // with what is me
     belief = all.update(belief, testing::kCv.measurement(sample.z, belief.summary.mean, 0)).belief;
     for (const auto& [axis, sum] : {std::pair{1, &north}, {2, &down}}) {
       *sum = one.predict(*sum, testing::cvAxis(sum->summary.mean));
-      *sum = one.update(*sum, LinearMeasurement<2, 1>{Vector<1>(sample.z(axis) - sum->summary.mean(0)), Matrix<1, 2>(1, 0), Matrix<1>(1.0)}).belief;
+      *sum = one.update(*sum, LinearMeasurement<2, 1>{Vector<1>(sample.z(axis) - sum->summary.mean(0)),
+                                                      Matrix<1, 2>(1, 0), Matrix<1>(1.0)})
+                 .belief;
       ASSERT_NEAR(belief.summary.mean(axis), sum->summary.mean(0), 1e-9);
       ASSERT_NEAR(belief.summary.mean(axis + 3), sum->summary.mean(1), 1e-9);
       ASSERT_NEAR(belief.summary.covariance(axis, axis + 3), sum->summary.covariance(0, 1), 1e-9);
@@ -157,9 +163,11 @@ TEST(GaussianSumFilter, WhatNothingCouplesIsFollowedApart) {  // with what is me
 TEST(GaussianSumFilter, WhatStartMotionRowOrACommonCauseCouplesIsOneBlock) {
   const auto step = testing::kCv.transition(Vector<6>::Zero());
   const auto z = testing::kCv.measurement(Vector<4>::Zero(), Vector<6>::Zero(), 1);
-  const auto blocks = [&](const GaussianSumOptions& options, const Matrix<6>& P, const LinearMeasurement<6, 4>& measurement) {
+  const auto blocks = [&](const GaussianSumOptions& options, const Matrix<6>& P,
+                          const LinearMeasurement<6, 4>& measurement) {
     const GaussianSumFilter<6> filter(options);
-    return filter.update(filter.predict(GaussianSum<6>{Gaussian<6>{Vector<6>::Zero(), P}}, step), measurement).belief.blocks.size();
+    return filter.update(filter.predict(GaussianSum<6>{Gaussian<6>{Vector<6>::Zero(), P}}, step), measurement)
+        .belief.blocks.size();
   };
   const Matrix<6> apart = Matrix<6>::Identity();
   EXPECT_EQ(blocks({}, apart, z), 3u);
@@ -186,8 +194,9 @@ TEST(GaussianSumFilter, JoiningBlocksKeepsMeanAndCovariance) {
   for (const auto& states : {Vector<6>{1, 0, 1, 0, 0, 0}, Vector<6>{0, 1, 0, 1, 1, 1}}) {
     sum.blocks.push_back({states});
     for (int i = 0; i < 5; ++i)
-      sum.blocks.back().hypotheses.push_back(
-          {states.cwiseProduct(testing::randomMatrix<6, 1>(random)), sum.blocks.back().own(testing::randomCovariance<6>(random)), random.gaussian()});
+      sum.blocks.back().hypotheses.push_back({states.cwiseProduct(testing::randomMatrix<6, 1>(random)),
+                                              sum.blocks.back().own(testing::randomCovariance<6>(random)),
+                                              random.gaussian()});
   }
   sum.summarize();
   const auto before = sum.summary;
@@ -207,7 +216,8 @@ TEST(GaussianSumFilter, ABurstFromTheFirstReadingIsNotTakenForTheTruth) {
   GaussianSum<2> belief{Gaussian<2>{Vector<2>::Zero(), Vector<2>(1, 0.01).asDiagonal()}};  // too slow to get there
   for (int i = 0; i < 40; ++i) {
     belief = filter.predict(belief, testing::cvAxis(belief.summary.mean));
-    LinearMeasurement<2, 1> z{Vector<1>((i < 10 ? 20 : 0) - belief.summary.mean(0)), Matrix<1, 2>(1, 0), Matrix<1>(1.0)};
+    LinearMeasurement<2, 1> z{Vector<1>((i < 10 ? 20 : 0) - belief.summary.mean(0)), Matrix<1, 2>(1, 0),
+                              Matrix<1>(1.0)};
     z.time = 0.5 * i;  // from 0: a stamp like any other
     const auto update = filter.update(belief, z);
     belief = update.belief;

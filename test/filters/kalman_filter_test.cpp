@@ -59,7 +59,8 @@ TEST(KalmanFilter, UpdateIsTheInformationFormsAnswer) {
 TEST(KalmanFilter, PredictionIsFPFTPlusQ) {
   Random random = announced(13);
   const auto belief = testing::randomBelief<6>(random);
-  const Transition<6> step{testing::randomMatrix<6>(random), testing::randomMatrix<6, 6>(random), testing::randomCovariance<6>(random)};
+  const Transition<6> step{testing::randomMatrix<6>(random), testing::randomMatrix<6, 6>(random),
+                           testing::randomCovariance<6>(random)};
   const auto prior = predictGaussian(belief, step);
   EXPECT_EQ(prior.mean, step.mean);
   EXPECT_LT(relativeDifference(prior.covariance, step.F * belief.covariance * step.F.transpose() + step.Q), 1e-13);

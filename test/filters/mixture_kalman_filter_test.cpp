@@ -14,7 +14,8 @@ using testing::relativeDifference;
 
 using Options2 = MixtureKalmanFilter<2>::Options;
 
-/// The exact posterior of one scalar row: a Kalman update for each scale, weighed by its likelihood, moments taken at the end.
+/// The exact posterior of one scalar row: a Kalman update for each scale, weighed by its likelihood, moments taken at
+/// the end.
 Gaussian<2> gaussianSum(const Gaussian<2>& prior, const LinearMeasurement<2, 1>& z, const Options2& options) {
   std::array<Gaussian<2>, 4> posteriors;
   std::array<double, 4> likelihoods{};
@@ -65,7 +66,8 @@ TEST(MixtureKalmanFilter, HasTheMomentsOfTheIntegratedDensity) {
       double noise = 0;
       for (std::size_t j = 0; j < 4; ++j) {
         const double variance = options.scales[j] * z.R(0, 0);
-        noise += options.probabilities[j] * std::exp(-0.5 * (z_value - x) * (z_value - x) / variance) / std::sqrt(variance);
+        noise +=
+            options.probabilities[j] * std::exp(-0.5 * (z_value - x) * (z_value - x) / variance) / std::sqrt(variance);
       }
       const double density = std::exp(-0.5 * x * x / 4) * noise;
       mass += density;

@@ -65,7 +65,9 @@ TEST(ReacquiringFilter, LetsASensorBackInOnceItHasLongSaidTheSame) {
 
 TEST(ReacquiringFilter, ScatteredOutliersStayOut) {
   Random random = testing::announced(66);
-  EXPECT_LT(firstFused(15, 100, [&](double t) { return (static_cast<int>(t) % 2 ? 1 : -1) * (100 + 50 * random.uniform()); }), 0);
+  EXPECT_LT(
+      firstFused(15, 100, [&](double t) { return (static_cast<int>(t) % 2 ? 1 : -1) * (100 + 50 * random.uniform()); }),
+      0);
 }
 
 TEST(ReacquiringFilter, AGoodReadingInBetweenIsForgiveness) {
@@ -99,7 +101,9 @@ TEST(ReacquiringFilter, BrokenMeasurementsChangeNothing) {
   EXPECT_EQ(belief.state.mean, Gaussian<6>().mean);
 }
 
-TEST(ReacquiringFilter, RefusesAResetAfterNoTime) { EXPECT_THROW(Gated(GatedKalmanFilter<6>({}), 0), std::invalid_argument); }
+TEST(ReacquiringFilter, RefusesAResetAfterNoTime) {
+  EXPECT_THROW(Gated(GatedKalmanFilter<6>({}), 0), std::invalid_argument);
+}
 
 }  // namespace
 }  // namespace sas_motion

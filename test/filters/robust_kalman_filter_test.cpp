@@ -12,12 +12,15 @@ namespace {
 using testing::announced;
 using testing::relativeDifference;
 
-RobustKalmanFilter<6>::Options options(const Loss& loss, int iterations = 500, bool process = false) { return {loss, iterations, 1e-12, process}; }
+RobustKalmanFilter<6>::Options options(const Loss& loss, int iterations = 500, bool process = false) {
+  return {loss, iterations, 1e-12, process};
+}
 
 /// (15), with rho1 the same loss or, without process weights, r^2 / 2.
 class Objective {
  public:
-  Objective(const Gaussian<6>& prior, const LinearMeasurement<6, 4>& z, const Loss& loss, bool process) : prior_(prior), z_(z), loss_(loss), process_(process) {
+  Objective(const Gaussian<6>& prior, const LinearMeasurement<6, 4>& z, const Loss& loss, bool process)
+      : prior_(prior), z_(z), loss_(loss), process_(process) {
     root_ = Eigen::SelfAdjointEigenSolver<Matrix<6>>(prior.covariance).operatorInverseSqrt();
   }
   double operator()(const Vector<6>& x) const {
@@ -94,7 +97,8 @@ TEST(RobustKalmanFilter, OnePassIsThePapersScalarFormula) {
       const double S = z.H.row(0).dot(Ph) + r / w;  // (19), W1 = I
       const auto update = RobustKalmanFilter<2>({Loss(kind), 1, 1e-6, false}).update(prior, z);
       EXPECT_LT(relativeDifference(update.belief.mean, prior.mean + Ph * d / S), 1e-10) << lossName(kind);
-      EXPECT_LT(relativeDifference(update.belief.covariance, prior.covariance - Ph * Ph.transpose() / S), 1e-10) << lossName(kind);
+      EXPECT_LT(relativeDifference(update.belief.covariance, prior.covariance - Ph * Ph.transpose() / S), 1e-10)
+          << lossName(kind);
       EXPECT_NEAR(update.weights(0), w, 1e-12) << lossName(kind);
       EXPECT_EQ(update.iterations, 1);
     }
@@ -137,7 +141,9 @@ TEST(RobustKalmanFilter, ARedescendingAnswerIsALocalMinimumNoWorseThanItsHuberSt
       EXPECT_LE(found, objective(start.belief.mean) * (1 + 1e-9)) << lossName(kind);
       EXPECT_LT(objective.gradient(update.belief.mean).norm(), 1e-5) << lossName(kind);
       for (int j = 0; j < 20; ++j)
-        EXPECT_GE(objective(update.belief.mean + 1e-3 * testing::randomMatrix<6>(random).normalized()), found * (1 - 1e-9)) << lossName(kind);
+        EXPECT_GE(objective(update.belief.mean + 1e-3 * testing::randomMatrix<6>(random).normalized()),
+                  found * (1 - 1e-9))
+            << lossName(kind);
     }
   }
 }
@@ -151,7 +157,8 @@ TEST(RobustKalmanFilter, OneMeasurementHasBoundedInfluence) {
     return (RobustKalmanFilter<6>(options(loss, iterations)).update(prior, z).belief.mean - prior.mean).norm();
   };
   const Loss huber(LossKind::Huber);
-  const double bound = (prior.covariance * z.H.transpose()).norm() * huber.tuning() / std::sqrt(z.R(0, 0));  // |P h| psi_max / sigma
+  const double bound =
+      (prior.covariance * z.H.transpose()).norm() * huber.tuning() / std::sqrt(z.R(0, 0));  // |P h| psi_max / sigma
   EXPECT_GT(moved(Loss(LossKind::L2), 1), 1e3 * bound);
   EXPECT_LE(moved(huber, 1), bound);
   EXPECT_NEAR(moved(huber, 100), bound, 1e-3 * bound);

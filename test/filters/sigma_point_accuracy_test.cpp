@@ -43,14 +43,17 @@ double meanError(const Vector<M>& mean, const Gaussian<M>& truth, const Differen
 
 TEST(SigmaPointAccuracy, RangeAndBearingHaveTheirMonteCarloMomentsAcrossPi) {
   Random random = announced(91);
-  const Gaussian<2> belief{Vector<2>(-50, 1), Vector<2>(25, 25).asDiagonal()};  // two fifths of it have the other sign of bearing
+  const Gaussian<2> belief{Vector<2>(-50, 1),
+                           Vector<2>(25, 25).asDiagonal()};  // two fifths of it have the other sign of bearing
   const auto truth = sampled<2>(belief, rangeBearing, bearingDifference, random);
   const Matrix<2> R = Vector<2>(1, 1e-4).asDiagonal();
   const auto expectNear = [&](const auto& filter) {
     const auto update = filter.update(belief, truth.mean, rangeBearing, R, bearingDifference);
     const Vector<2> mean = truth.mean - update.innovation;
     EXPECT_LT(meanError(mean, truth, bearingDifference), 0.008);  // sampling alone: 0.0016
-    EXPECT_LT(testing::relativeDifference((update.S - R).diagonal().cwiseQuotient(truth.covariance.diagonal()), Vector<2>::Ones()), 0.05);
+    EXPECT_LT(testing::relativeDifference((update.S - R).diagonal().cwiseQuotient(truth.covariance.diagonal()),
+                                          Vector<2>::Ones()),
+              0.05);
   };
   expectNear(SigmaPointFilter(cubaturePoints<2>()));
   expectNear(SigmaPointFilter(unscentedPoints<2>({1, 0, 1})));
@@ -77,7 +80,8 @@ TEST(SigmaPointAccuracy, APredictionWithAnUncertainHeadingHasItsMonteCarloMoment
   EXPECT_GT(meanError(f(belief.mean), truth, towfish::Model::difference), 0.06) << "f of the mean is no good here";
 }
 
-/// A quarter turn of the map takes the points of a diagonal covariance to each other, so the answer turns with it, heading past pi and all.
+/// A quarter turn of the map takes the points of a diagonal covariance to each other, so the answer turns with it,
+/// heading past pi and all.
 TEST(SigmaPointAccuracy, AQuarterTurnOfTheMapTurnsTheAnswer) {
   const towfish::Model model{towfish::MotionParameters{}};
   Matrix<kStates> C = Matrix<kStates>::Zero();
@@ -100,11 +104,13 @@ TEST(SigmaPointAccuracy, AQuarterTurnOfTheMapTurnsTheAnswer) {
     Matrix<kStates> turned = Matrix<kStates>::Identity();
     for (int i = 0; i < quarter; ++i) turned = (C * turned).eval();
     EXPECT_LT(towfish::Model::difference(prior->mean, turned * expected->mean + turn).norm(), 1e-11) << quarter;
-    EXPECT_LT(testing::relativeDifference(prior->covariance, turned * expected->covariance * turned.transpose()), 1e-12) << quarter;
+    EXPECT_LT(testing::relativeDifference(prior->covariance, turned * expected->covariance * turned.transpose()), 1e-12)
+        << quarter;
   }
 }
 
-/// GIVEN a towfish that hears range and bearing of a beacon, WHEN it passes, THEN the filter's error is what its covariance says.
+/// GIVEN a towfish that hears range and bearing of a beacon, WHEN it passes, THEN the filter's error is what its
+/// covariance says.
 TEST(SigmaPointAccuracy, NeesOfRunsPastABeaconIsInItsBand) {
   constexpr int kRuns = 200, kSteps = 60;
   const towfish::Model model{towfish::MotionParameters{0.1, 300, 0.5 * kRadPerDeg, 0.05, 0.01}};

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What every sigma-point filter promises: on linear models the Kalman filter's answer, whatever the units, and no answer from bad numbers.
+// What every sigma-point filter promises: on linear models the Kalman filter's answer, whatever the units, and no
+// answer from bad numbers.
 #include "sas_motion/filters/sigma_point_filter.hpp"
 
 #include <limits>
@@ -92,7 +93,8 @@ TYPED_TEST(EverySigmaPointFilter, UnitsDoNotMatter) {
     expectSame(*same, *predicted);
     const auto update = this->filter.update(belief, z, look, R);
     const auto other = this->filter.update(
-        scaled(belief), z_scaled, [&](const Vector<6>& x) -> Vector<2> { return rows.cwiseProduct(look(T_inverse * x)); }, R_scaled);
+        scaled(belief), z_scaled,
+        [&](const Vector<6>& x) -> Vector<2> { return rows.cwiseProduct(look(T_inverse * x)); }, R_scaled);
     ASSERT_EQ(update.verdict, Verdict::Accepted);
     expectSame(other.belief, update.belief);
     EXPECT_NEAR(other.nis, update.nis, 1e-10 * (1 + update.nis));
@@ -107,8 +109,8 @@ TYPED_TEST(EverySigmaPointFilter, TheMeanOfAQuadraticIsExactInEveryRotatedFrame)
     const Matrix<6> C = testing::randomMatrix<6, 6>(random).householderQr().householderQ();
     const auto square = [&](const Vector<6>& x) -> Vector<6> { return x * x.dot(Vector<6>::Ones()) + A * x; };
     const auto rotated = this->filter.predict(
-        {C * belief.mean, C * belief.covariance * C.transpose()}, [&](const Vector<6>& x) -> Vector<6> { return C * square(C.transpose() * x); },
-        Matrix<6>::Identity());
+        {C * belief.mean, C * belief.covariance * C.transpose()},
+        [&](const Vector<6>& x) -> Vector<6> { return C * square(C.transpose() * x); }, Matrix<6>::Identity());
     ASSERT_TRUE(rotated);
     const Vector<6> expected = square(belief.mean) + belief.covariance * Vector<6>::Ones();  // E[x 1'x] = m 1'm + P 1
     EXPECT_LT(relativeDifference(C.transpose() * rotated->mean, expected), 1e-12);
@@ -120,7 +122,8 @@ TYPED_TEST(EverySigmaPointFilter, RefusesWhatIsNoMeasurementAndStaysAtThePrior) 
   const auto prior = testing::randomBelief<6>(random);
   const Matrix<2> R = testing::randomCovariance<2>(random);
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  const auto expectRefused = [&](const Gaussian<6>& belief, const Vector<2>& z, const auto& h, const Matrix<2>& noise, const char* what) {
+  const auto expectRefused = [&](const Gaussian<6>& belief, const Vector<2>& z, const auto& h, const Matrix<2>& noise,
+                                 const char* what) {
     const auto update = this->filter.update(belief, z, h, noise);
     EXPECT_EQ(update.verdict, Verdict::Invalid) << what;
     EXPECT_EQ(update.belief.mean, belief.mean) << what;

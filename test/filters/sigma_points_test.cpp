@@ -40,7 +40,8 @@ TEST(SigmaPoints, HaveTheMomentsOfAStandardNormalToTheThirdDegree) {
   expectStandardNormalToTheThirdDegree(cubaturePoints<2>());
   expectStandardNormalToTheThirdDegree(cubaturePoints<6>());
   expectStandardNormalToTheThirdDegree(cubaturePoints<16>());
-  for (const auto& options : {UnscentedOptions{}, UnscentedOptions{0.5, 2, 0}, UnscentedOptions{0.1, 0, 3}, UnscentedOptions{1, 2, -1}}) {
+  for (const auto& options :
+       {UnscentedOptions{}, UnscentedOptions{0.5, 2, 0}, UnscentedOptions{0.1, 0, 3}, UnscentedOptions{1, 2, -1}}) {
     expectStandardNormalToTheThirdDegree(unscentedPoints<2>(options));
     expectStandardNormalToTheThirdDegree(unscentedPoints<6>(options));
   }
@@ -66,9 +67,14 @@ void expectStandardNormalToTheSecondDegree() {
     const auto points = simplexPoints<N>(W0);
     EXPECT_NEAR(points.mean_weights.sum(), 1, 1e-13);
     EXPECT_LT((points.offsets * points.mean_weights).norm(), 1e-13) << N;
-    EXPECT_LT((points.offsets * points.covariance_weights.asDiagonal() * points.offsets.transpose() - Matrix<N>::Identity()).norm(), 1e-13) << N;
+    EXPECT_LT(
+        (points.offsets * points.covariance_weights.asDiagonal() * points.offsets.transpose() - Matrix<N>::Identity())
+            .norm(),
+        1e-13)
+        << N;
     EXPECT_EQ(points.offsets.col(0).norm(), 0);
-    for (int i = 1; i < N + 2; ++i) EXPECT_NEAR(points.offsets.col(i).norm(), std::sqrt(N / (1 - W0)), 1e-12) << "a corner of the sphere";
+    for (int i = 1; i < N + 2; ++i)
+      EXPECT_NEAR(points.offsets.col(i).norm(), std::sqrt(N / (1 - W0)), 1e-12) << "a corner of the sphere";
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The square-root form gives the covariance form's answers, with half the digits, and some where the covariance form has none.
+// The square-root form gives the covariance form's answers, with half the digits, and some where the covariance form
+// has none.
 #include "sas_motion/filters/square_root_filter.hpp"
 
 #include <limits>
@@ -73,7 +74,8 @@ void expectTheKalmanFilter(const Points& points) {
     z.R = testing::randomCovariance<4>(random);
     const auto expected = KalmanFilter<6>().update(belief, z);
     const auto update = filter.update(
-        rooted(belief), Vector<4>(z.H * belief.mean + z.innovation), [&](const Vector<6>& x) -> Vector<4> { return z.H * x; }, rootOf<4>(z.R));
+        rooted(belief), Vector<4>(z.H * belief.mean + z.innovation),
+        [&](const Vector<6>& x) -> Vector<4> { return z.H * x; }, rootOf<4>(z.R));
     EXPECT_EQ(update.verdict, Verdict::Accepted);
     expectSame<6>(update.belief, expected.belief, 1e-11);
     EXPECT_LT(relativeDifference(update.S, expected.S), 1e-12);

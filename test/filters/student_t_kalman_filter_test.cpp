@@ -36,7 +36,8 @@ TEST(StudentTKalmanFilter, StopsAtAFixedPointOfTheVariationalEquations) {
     LinearMeasurement<2, 1> weighted = z;
     weighted.R /= lambda;
     EXPECT_NEAR(update.weights(0), std::min(1.0, lambda), 1e-9);
-    EXPECT_LT(testing::relativeDifference(update.belief.mean, KalmanFilter<2>().update(prior, weighted).belief.mean), 1e-9);
+    EXPECT_LT(testing::relativeDifference(update.belief.mean, KalmanFilter<2>().update(prior, weighted).belief.mean),
+              1e-9);
   }
 }
 

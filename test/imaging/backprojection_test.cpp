@@ -87,10 +87,12 @@ TEST(Backprojection, LinesThatLookAwayAreLeftOut) {
   const ImageGrid grid = gridAround(kTarget, 20, 20);
   BackprojectionOptions narrow;
   narrow.half_angle = 2 * kRadPerDeg;
-  const double whole = std::abs(backproject(lines, grid, {}).at(10, 10)), some = std::abs(backproject(lines, grid, narrow).at(10, 10));
+  const double whole = std::abs(backproject(lines, grid, {}).at(10, 10)),
+               some = std::abs(backproject(lines, grid, narrow).at(10, 10));
   double heard = 0;
   for (const auto& path : lines.paths)
-    if (std::abs((kTarget - path.transmitter).normalized().x()) < narrow.half_angle) heard += beamAmplitude(path, kTarget, sonar);
+    if (std::abs((kTarget - path.transmitter).normalized().x()) < narrow.half_angle)
+      heard += beamAmplitude(path, kTarget, sonar);
   EXPECT_NEAR(some, heard, 0.02 * heard);
   EXPECT_LT(some, 0.8 * whole);
 }
@@ -109,7 +111,8 @@ TEST(Backprojection, WhatIsNotFiniteIsLeftOutAndCounted) {
   auto others = poses;
   for (const int bad : {33, 20, 7}) others.erase(others.begin() + bad);
   const ImageGrid grid = gridAround(kTarget, 40, 40);
-  const Image expected = backproject(compressRange(simulateEchoes(sonar, echoPaths(sonar, others), points({kTarget}), {}), sonar, {}), grid, {});
+  const Image expected = backproject(
+      compressRange(simulateEchoes(sonar, echoPaths(sonar, others), points({kTarget}), {}), sonar, {}), grid, {});
   EXPECT_LT(relativeError(backproject(lines, grid, {}), expected), -60);
 }
 
@@ -120,7 +123,8 @@ TEST(Backprojection, RefusesWhatDoesNotFitAndSaysSo) {
     backproject(lines, gridAround(kTarget, 40000, 40000), {});
     ADD_FAILURE() << "accepted";
   } catch (const std::invalid_argument& error) {
-    for (const char* part : {"40000 x 40000", "MB", "memory_limit"}) EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    for (const char* part : {"40000 x 40000", "MB", "memory_limit"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
   ImageGrid skew = gridAround(kTarget, 4, 4);
   skew.range_axis = {0.1, 1, 0};

@@ -15,12 +15,15 @@ TEST(Interpolator, IsWithin75DecibelsOfABandLimitedLine) {
   double error = 0, energy = 0;
   const Interpolator interpolator;
   for (int wave = 0; wave < 50; ++wave) {
-    const double frequency = (random.uniform() - 0.5) / 1.5;  // cycles a sample, inside the band of a line sampled at 1.5 times it
+    const double frequency =
+        (random.uniform() - 0.5) / 1.5;  // cycles a sample, inside the band of a line sampled at 1.5 times it
     std::vector<std::complex<float>> line(kSamples);
-    for (int i = 0; i < kSamples; ++i) line[static_cast<std::size_t>(i)] = std::complex<float>(std::polar(1.0, 2 * kPi * frequency * i));
+    for (int i = 0; i < kSamples; ++i)
+      line[static_cast<std::size_t>(i)] = std::complex<float>(std::polar(1.0, 2 * kPi * frequency * i));
     for (int i = 0; i < 50; ++i) {
       const double position = 50 + 100 * random.uniform();
-      error += std::norm(interpolator.at(line.data(), kSamples, position) - std::polar(1.0, 2 * kPi * frequency * position));
+      error +=
+          std::norm(interpolator.at(line.data(), kSamples, position) - std::polar(1.0, 2 * kPi * frequency * position));
       energy += 1;
     }
   }
@@ -34,7 +37,9 @@ TEST(EchoPath, OfAMovingReceiverSolvesTheTwoWayDelay) {
   path.receiver_velocity = {3, -0.5, 0.2};
   const Eigen::Vector3d point(2, 40, 0);
   double delay = 0;
-  for (int i = 0; i < 50; ++i) delay = ((point - path.transmitter).norm() + (point - path.receiver - delay * path.receiver_velocity).norm()) / 1500;
+  for (int i = 0; i < 50; ++i)
+    delay =
+        ((point - path.transmitter).norm() + (point - path.receiver - delay * path.receiver_velocity).norm()) / 1500;
   EXPECT_NEAR(pathLength(path, point, 1500), 1500 * delay, 1e-9);
   EchoPath still;
   still.transmitter = still.receiver = {0, 0, 10};
@@ -68,7 +73,8 @@ TEST(Echoes, OfAPointAreAtItsDelayWithItsPhaseAfterCompression) {
     for (std::size_t i = 0; i < lines.paths.size(); ++i) {
       const double length = pathLength(lines.paths[i], target, sonar.sound_speed);
       const auto peak = interpolator.at(lines.line(i), lines.samples, lines.position(length));
-      const auto expected = std::polar(beamAmplitude(lines.paths[i], target, sonar), -2 * kPi * sonar.carrier / sonar.sound_speed * length);
+      const auto expected = std::polar(beamAmplitude(lines.paths[i], target, sonar),
+                                       -2 * kPi * sonar.carrier / sonar.sound_speed * length);
       EXPECT_NEAR(std::abs(peak - expected), 0, 2e-3);
     }
   }
@@ -103,12 +109,15 @@ TEST(Echoes, SlantErrorsDelayTheLine) {
   const Eigen::Vector3d target(0, 29, 0);
   EchoOptions late;
   late.slant_errors = {0.003, 0};
-  const auto clean = compressedEchoes(sonar, paths, points({target})), delayed = compressedEchoes(sonar, paths, points({target}), late);
+  const auto clean = compressedEchoes(sonar, paths, points({target})),
+             delayed = compressedEchoes(sonar, paths, points({target}), late);
   const Interpolator interpolator;
   const auto peak = [&](const EchoLines& lines, std::size_t i, double error) {
-    return interpolator.at(lines.line(i), lines.samples, lines.position(pathLength(paths[i], target, sonar.sound_speed) + 2 * error));
+    return interpolator.at(lines.line(i), lines.samples,
+                           lines.position(pathLength(paths[i], target, sonar.sound_speed) + 2 * error));
   };
-  EXPECT_NEAR(std::arg(peak(delayed, 0, 0.003) / peak(clean, 0, 0)), wrapAngle(-4 * kPi * 0.003 / sonar.wavelength()), 1e-3);
+  EXPECT_NEAR(std::arg(peak(delayed, 0, 0.003) / peak(clean, 0, 0)), wrapAngle(-4 * kPi * 0.003 / sonar.wavelength()),
+              1e-3);
   EXPECT_NEAR(std::abs(peak(delayed, 1, 0) - peak(clean, 1, 0)), 0, 1e-6);
   late.slant_errors = {0.003};
   EXPECT_THROW(simulateEchoes(sonar, paths, {}, late), std::invalid_argument);
@@ -137,7 +146,8 @@ TEST(SpeckleScene, HasUnitPowerAnAreaAndAShadowWithNothingInIt) {
   EXPECT_NEAR(power, 1, 0.05);
   EXPECT_EQ(speckleScene(options, {}, 9).scatterers.back().amplitude, plain.scatterers.back().amplitude);
 
-  const Scene scene = speckleScene(options, {Block{{-2, 28, 0}, {2, 28.3, 0.5}}}, 9);  // its shadow reaches to 28.3 / 0.95 = 29.8 m
+  const Scene scene =
+      speckleScene(options, {Block{{-2, 28, 0}, {2, 28.3, 0.5}}}, 9);  // its shadow reaches to 28.3 / 0.95 = 29.8 m
   const SonarDescription sonar = smallSonar();
   const EchoLines lines = compressedEchoes(sonar, echoPaths(sonar, track(60, 0.05)), scene);
   const auto meanPower = [&](double y) {

@@ -33,7 +33,8 @@ TEST(ImageFile, IsANumpyArrayWithItsAxesBeside) {
   std::memcpy(&last, npy.data() + npy.size() - 4, 4);
   EXPECT_EQ(last, 12);
   const std::string axes = contents((folder / "image.json").string());
-  for (const char* part : {"\"range_step\": 0.0080", "\"rows\": 2", "\"along_axis\": [1, 0, 0]"}) EXPECT_NE(axes.find(part), std::string::npos) << axes;
+  for (const char* part : {"\"range_step\": 0.0080", "\"rows\": 2", "\"along_axis\": [1, 0, 0]"})
+    EXPECT_NE(axes.find(part), std::string::npos) << axes;
   std::filesystem::remove_all(folder);
   EXPECT_THROW(writeImage((folder / "image").string(), image), std::runtime_error);
 }

@@ -27,12 +27,14 @@ inline SonarDescription smallSonar() {
   return sonar;
 }
 
-/// Pings `spacing` apart along x, centred on x = 0, 10 m over the bottom, with a sway of this amplitude and 1.7 m period.
+/// Pings `spacing` apart along x, centred on x = 0, 10 m over the bottom, with a sway of this amplitude and 1.7 m
+/// period.
 inline std::vector<PingPose> track(int pings, double spacing, double sway = 0) {
   std::vector<PingPose> poses(static_cast<std::size_t>(pings));
   for (int i = 0; i < pings; ++i) {
     const double x = (i - 0.5 * (pings - 1)) * spacing;
-    poses[static_cast<std::size_t>(i)].position = {x, sway * std::sin(2 * kPi * x / 1.7), 10 + 0.7 * sway * std::cos(2 * kPi * x / 2.3)};
+    poses[static_cast<std::size_t>(i)].position = {x, sway * std::sin(2 * kPi * x / 1.7),
+                                                   10 + 0.7 * sway * std::cos(2 * kPi * x / 2.3)};
     poses[static_cast<std::size_t>(i)].velocity = {2, 0, 0};
   }
   return poses;
@@ -44,8 +46,8 @@ inline Scene points(const std::vector<Eigen::Vector3d>& places) {
   return scene;
 }
 
-inline EchoLines compressedEchoes(const SonarDescription& sonar, const std::vector<EchoPath>& paths, const Scene& scene, const EchoOptions& options = {},
-                                  RangeFilter filter = RangeFilter::Equalized) {
+inline EchoLines compressedEchoes(const SonarDescription& sonar, const std::vector<EchoPath>& paths, const Scene& scene,
+                                  const EchoOptions& options = {}, RangeFilter filter = RangeFilter::Equalized) {
   CompressionOptions compression;
   compression.filter = filter;
   compression.threads = 2;
@@ -55,7 +57,8 @@ inline EchoLines compressedEchoes(const SonarDescription& sonar, const std::vect
 }
 
 /// Pixels around a place on the bottom.
-inline ImageGrid gridAround(const Eigen::Vector3d& place, int rows, int columns, double range_step = 0.008, double along_step = 0.02) {
+inline ImageGrid gridAround(const Eigen::Vector3d& place, int rows, int columns, double range_step = 0.008,
+                            double along_step = 0.02) {
   ImageGrid grid;
   grid.rows = rows;
   grid.columns = columns;

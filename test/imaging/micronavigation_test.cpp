@@ -21,18 +21,22 @@ SonarDescription arraySonar() {
 
 /// In waves of about 6 s.
 PingPose wavering(double t, double speed = 1.3) {
-  const auto position = [speed](double s) { return Eigen::Vector3d(speed * s, 0.15 * std::sin(1.05 * s + 0.4), 10 + 0.2 * std::sin(1.05 * s)); };
+  const auto position = [speed](double s) {
+    return Eigen::Vector3d(speed * s, 0.15 * std::sin(1.05 * s + 0.4), 10 + 0.2 * std::sin(1.05 * s));
+  };
   PingPose pose;
   pose.position = position(t);
   pose.velocity = (position(t + 1e-4) - position(t - 1e-4)) / 2e-4;
-  pose.C_local_body =
-      (Eigen::AngleAxisd(0.02 * std::sin(0.7 * t), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.02 * std::sin(1.05 * t + 1), Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(0.04 * std::sin(1.2 * t + 2), Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
+  pose.C_local_body = (Eigen::AngleAxisd(0.02 * std::sin(0.7 * t), Eigen::Vector3d::UnitZ()) *
+                       Eigen::AngleAxisd(0.02 * std::sin(1.05 * t + 1), Eigen::Vector3d::UnitY()) *
+                       Eigen::AngleAxisd(0.04 * std::sin(1.2 * t + 2), Eigen::Vector3d::UnitX()))
+                          .toRotationMatrix();
   return pose;
 }
 
-std::vector<PingPose> waveringPair(double t, double speed = 1.3) { return {wavering(t, speed), wavering(t + 1 / arraySonar().ping_rate, speed)}; }
+std::vector<PingPose> waveringPair(double t, double speed = 1.3) {
+  return {wavering(t, speed), wavering(t + 1 / arraySonar().ping_rate, speed)};
+}
 
 Scene bottomUnder(const PingPose& pose, std::uint64_t seed) {
   SpeckleOptions options;
@@ -42,14 +46,17 @@ Scene bottomUnder(const PingPose& pose, std::uint64_t seed) {
   return speckleScene(options, {}, seed);
 }
 
-EchoLines echoes(const SonarDescription& sonar, const std::vector<PingPose>& poses, std::uint64_t seed, EchoOptions options = {}) {
+EchoLines echoes(const SonarDescription& sonar, const std::vector<PingPose>& poses, std::uint64_t seed,
+                 EchoOptions options = {}) {
   options.seed = seed;
   return compressedEchoes(sonar, echoPaths(sonar, poses), bottomUnder(poses[0], seed), options, RangeFilter::Matched);
 }
 
 /// On body axes half-way, of the array's middle.
 Eigen::Vector3d trueDisplacement(const std::vector<PingPose>& poses, double delay) {
-  const Eigen::Matrix3d C = Eigen::Quaterniond(poses[0].C_local_body).slerp(0.5, Eigen::Quaterniond(poses[1].C_local_body)).toRotationMatrix();
+  const Eigen::Matrix3d C = Eigen::Quaterniond(poses[0].C_local_body)
+                                .slerp(0.5, Eigen::Quaterniond(poses[1].C_local_body))
+                                .toRotationMatrix();
   return C.transpose() * (poses[1].position - poses[0].position + delay * (poses[1].velocity - poses[0].velocity));
 }
 
@@ -76,12 +83,14 @@ TEST(Micronavigation, ErrorsAreWhatItsStandardDeviationsSay) {
   noisy.noise = 0.7;
   for (int i = 0; i < 20; ++i) {
     const auto poses = waveringPair(1.37 * i, 1.0 + 0.5 * std::fmod(0.618 * i, 1.0));  // any share of a phase centre
-    const auto found = micronavigate(echoes(sonar, poses, static_cast<std::uint64_t>(i), noisy), 0, sonar, poses[0], poses[1], {});
+    const auto found =
+        micronavigate(echoes(sonar, poses, static_cast<std::uint64_t>(i), noisy), 0, sonar, poses[0], poses[1], {});
     ASSERT_EQ(found.verdict, MicronavigationVerdict::Valid);
     const Eigen::Vector3d moved = trueDisplacement(poses, found.delay);
     along.add(found.along - moved.x(), found.along_sigma);
     sight.add(found.sight - moved.dot(found.sight_body), found.sight_sigma);
-    const Eigen::Vector3d fore = poses[0].C_local_body.transpose() * poses[1].C_local_body.col(0);  // on the first ping's axes
+    const Eigen::Vector3d fore =
+        poses[0].C_local_body.transpose() * poses[1].C_local_body.col(0);  // on the first ping's axes
     turn.add(found.turn - fore.dot(found.sight_body), found.turn_sigma);
     EXPECT_LT(found.along_sigma, 1e-3);
     EXPECT_LT(found.sight_sigma, 0.1e-3);
@@ -98,7 +107,8 @@ TEST(Micronavigation, FindsTheSameFromAWrongBelief) {
   const auto poses = waveringPair(2);
   const EchoLines lines = echoes(sonar, poses, 3);
   const auto right = micronavigate(lines, 0, sonar, poses[0], poses[1], {});
-  for (const Eigen::Vector3d& error : {Eigen::Vector3d(0.03, 0.05, -0.02), Eigen::Vector3d(-0.1, -0.06, 0), Eigen::Vector3d(0, 0.0075, 0)}) {
+  for (const Eigen::Vector3d& error :
+       {Eigen::Vector3d(0.03, 0.05, -0.02), Eigen::Vector3d(-0.1, -0.06, 0), Eigen::Vector3d(0, 0.0075, 0)}) {
     PingPose wrong = poses[1];
     wrong.position += error;
     const auto found = micronavigate(lines, 0, sonar, poses[0], wrong, {});
@@ -119,7 +129,8 @@ TEST(Micronavigation, LooksToStarboardAsToPort) {
   for (auto& scatterer : scene.scatterers) scatterer.position.y() *= -1;
   MicronavigationOptions options;
   options.starboard = true;
-  const auto found = micronavigate(compressedEchoes(sonar, echoPaths(sonar, poses), scene, {}, RangeFilter::Matched), 0, sonar, poses[0], poses[1], options);
+  const auto found = micronavigate(compressedEchoes(sonar, echoPaths(sonar, poses), scene, {}, RangeFilter::Matched), 0,
+                                   sonar, poses[0], poses[1], options);
   ASSERT_EQ(found.verdict, MicronavigationVerdict::Valid);
   EXPECT_LT(found.sight_body.y(), -0.9);
   EXPECT_LT(found.sight_body.z(), -0.3);
@@ -138,7 +149,8 @@ TEST(Micronavigation, DoesNotFeelADelayCommonToBothPings) {
   for (std::size_t i = 0; i < 6; ++i) late.slant_errors[i] = 0;
   const auto second = micronavigate(echoes(sonar, poses, 4, late), 0, sonar, poses[0], poses[1], {});
   ASSERT_EQ(second.verdict, MicronavigationVerdict::Valid);
-  EXPECT_NEAR(second.sight, plain.sight - 0.05, 1e-3);  // a delay is the same at all ranges, a displacement is not quite
+  EXPECT_NEAR(second.sight, plain.sight - 0.05,
+              1e-3);  // a delay is the same at all ranges, a displacement is not quite
 }
 
 TEST(Micronavigation, RefusesWhatIsNotAlike) {
@@ -146,7 +158,8 @@ TEST(Micronavigation, RefusesWhatIsNotAlike) {
   const auto poses = waveringPair(0);
   EchoLines lines = echoes(sonar, poses, 1);
   const EchoLines others = echoes(sonar, poses, 2);
-  std::copy(others.line(6), others.line(6) + 6 * others.samples, lines.line(6));  // the second ping heard another bottom
+  std::copy(others.line(6), others.line(6) + 6 * others.samples,
+            lines.line(6));  // the second ping heard another bottom
   EXPECT_EQ(micronavigate(lines, 0, sonar, poses[0], poses[1], {}).verdict, MicronavigationVerdict::Incoherent);
   EchoOptions noise;
   noise.noise = 1;
@@ -179,7 +192,8 @@ TEST(Micronavigation, RefusesABandTooNarrowToTellWavelengthsApart) {
   const auto poses = waveringPair(0);
   EchoOptions noisy;
   noisy.noise = 1.5;
-  EXPECT_EQ(micronavigate(echoes(sonar, poses, 1, noisy), 0, sonar, poses[0], poses[1], {}).verdict, MicronavigationVerdict::Ambiguous);
+  EXPECT_EQ(micronavigate(echoes(sonar, poses, 1, noisy), 0, sonar, poses[0], poses[1], {}).verdict,
+            MicronavigationVerdict::Ambiguous);
 }
 
 TEST(Micronavigation, OfAllPingsIsTheSameForAnyNumberOfThreads) {

@@ -45,7 +45,8 @@ TEST(Compensation, FollowsReceiversThatSwayWhileTheEchoIsUnderWay) {
   sonar.element = 0.25;
   sonar.stop_and_hop = false;
   auto poses = track(60, 0.05, 0.003);
-  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].velocity += Eigen::Vector3d(0, 0.3, 0.2) * std::sin(0.7 * static_cast<double>(i));
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    poses[i].velocity += Eigen::Vector3d(0, 0.3, 0.2) * std::sin(0.7 * static_cast<double>(i));
   const EchoLines lines = compressedEchoes(sonar, echoPaths(sonar, poses), points({kNear}));
   EchoLines stopped = lines;
   for (auto& path : stopped.paths) path.receiver_velocity.setZero();

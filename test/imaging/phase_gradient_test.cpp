@@ -17,12 +17,14 @@ Image patch(Error&& error) {
   sonar.element = 0.05;
   Random random(11);
   std::vector<Eigen::Vector3d> places{kMiddle};
-  for (int i = 0; i < 12; ++i) places.push_back(kMiddle + Eigen::Vector3d(0.8 * (random.uniform() - 0.5), 0.13 * (i - 5.5), 0));
+  for (int i = 0; i < 12; ++i)
+    places.push_back(kMiddle + Eigen::Vector3d(0.8 * (random.uniform() - 0.5), 0.13 * (i - 5.5), 0));
   const auto paths = echoPaths(sonar, track(120, 0.04));
   EchoOptions options;
   for (std::size_t i = 0; i < paths.size(); ++i)
     options.slant_errors.push_back(error(2 * (static_cast<double>(i) + 0.5) / static_cast<double>(paths.size()) - 1));
-  return backproject(compressedEchoes(sonar, paths, points(places), options), gridAround(kMiddle, 240, 128, 0.008, 0.025), {});
+  return backproject(compressedEchoes(sonar, paths, points(places), options),
+                     gridAround(kMiddle, 240, 128, 0.008, 0.025), {});
 }
 
 /// Of the point in the middle, between pixels [dB].

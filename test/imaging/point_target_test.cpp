@@ -11,8 +11,10 @@
 namespace sas_motion::imaging::testing {
 namespace {
 
-/// The response of an aperture of 400 samples with this weight and slant error [in wavelengths] over u in [-1, 1], critically sampled over 1.25.
-std::vector<std::complex<double>> response(const std::function<double(double)>& weight, const std::function<double(double)>& error) {
+/// The response of an aperture of 400 samples with this weight and slant error [in wavelengths] over u in [-1, 1],
+/// critically sampled over 1.25.
+std::vector<std::complex<double>> response(const std::function<double(double)>& weight,
+                                           const std::function<double(double)>& error) {
   constexpr int kAperture = 400, kLine = 500;
   Spectrum line(kLine);
   for (int i = 0; i < kAperture; ++i) {
@@ -89,7 +91,8 @@ TEST(CutMeasures, GiveTheKnownAnswerForARandomWalk) {
     }
     for (int i = 0; i < kSteps; ++i) squares += std::pow(walk[i] -= mean + slope * u(i), 2) / kSteps;
     const double scale = 1 / (32 * std::sqrt(squares));
-    const Known found = measured([&](double at_u) { return scale * walk[static_cast<std::size_t>((at_u + 1) / 2 * kSteps)]; });
+    const Known found =
+        measured([&](double at_u) { return scale * walk[static_cast<std::size_t>((at_u + 1) / 2 * kSteps)]; });
     pslr.push_back(found.pslr);
     islr.push_back(found.islr);
     loss.push_back(found.loss);
@@ -131,7 +134,8 @@ TEST(PointTarget, MeasuresLossEntropyAndEnergyOfADefocusedImage) {
   const Eigen::Vector3d target(0, 29, 0);
   const auto paths = echoPaths(sonar, track(120, 0.05));
   EchoOptions swaying;
-  for (std::size_t i = 0; i < paths.size(); ++i) swaying.slant_errors.push_back(sonar.wavelength() / 10 * std::sin(0.3 * static_cast<double>(i)));
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    swaying.slant_errors.push_back(sonar.wavelength() / 10 * std::sin(0.3 * static_cast<double>(i)));
   const ImageGrid grid = gridAround(target, 160, 200, 0.006, 0.02);
   const Image sharp = backproject(compressedEchoes(sonar, paths, points({target})), grid, {});
   const Image blurred = backproject(compressedEchoes(sonar, paths, points({target}), swaying), grid, {});
@@ -139,7 +143,8 @@ TEST(PointTarget, MeasuresLossEntropyAndEnergyOfADefocusedImage) {
   ChipOptions options;
   options.reference_power = reference.range.peak_power;
   const auto measures = measurePointTarget(blurred, target, options);
-  EXPECT_NEAR(measures.peak_loss, -20 * std::log10(std::cyl_bessel_j(0, 4 * kPi / 10)), 0.4);  // of a sine's phase modulation
+  EXPECT_NEAR(measures.peak_loss, -20 * std::log10(std::cyl_bessel_j(0, 4 * kPi / 10)),
+              0.4);  // of a sine's phase modulation
   EXPECT_GT(imageEntropy(blurred), imageEntropy(sharp) + 0.3);
   EXPECT_GT(wholeImageIslr(blurred, measures), wholeImageIslr(sharp, reference) + 3);
 }

@@ -16,7 +16,8 @@ Trajectory circleLineRest() {
   std::vector<TimedPose> poses;
   for (int i = 0; i <= 600; ++i) {
     const double t = 0.1 * i, angle = 2 * std::min(t, 20.0) / 50, way = 2 * std::clamp(t - 20, 0.0, 20.0);
-    const Eigen::Vector3d at(50 * std::sin(angle) + way * std::cos(angle), 50 - 50 * std::cos(angle) + way * std::sin(angle), 0);
+    const Eigen::Vector3d at(50 * std::sin(angle) + way * std::cos(angle),
+                             50 - 50 * std::cos(angle) + way * std::sin(angle), 0);
     poses.push_back({stampFromSeconds(t), at, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()))});
   }
   return Trajectory(poses);
@@ -31,7 +32,9 @@ TEST(StraightestWindow, IsOnTheLineAndNotAtRest) {
 
 TEST(StraightestWindow, HasNoGap) {
   auto poses = circleLineRest().poses();
-  const auto inside = [](const TimedPose& pose) { return pose.stamp > stampFromSeconds(24.05) && pose.stamp < stampFromSeconds(35.95); };
+  const auto inside = [](const TimedPose& pose) {
+    return pose.stamp > stampFromSeconds(24.05) && pose.stamp < stampFromSeconds(35.95);
+  };
   poses.erase(std::remove_if(poses.begin(), poses.end(), inside), poses.end());
   const auto begin = straightestWindow(Trajectory(poses), 3, 0.5);
   ASSERT_TRUE(begin);

@@ -22,7 +22,8 @@ TEST(FitTrend, LeavesTheRestOfALine) {
   const Trend trend = fitTrend({10, 11, 12, 13}, {1.5, 3.5, 5.5 + 0.4, 7.5});
   EXPECT_NEAR(trend.mean, 4.6, 1e-12);
   EXPECT_NEAR(trend.slope, 2.04, 1e-12);
-  EXPECT_NEAR(trend.rms, 0.4 * std::sqrt(0.7) / 2, 1e-12);  // the share of a single value at the third of four places that no line takes
+  EXPECT_NEAR(trend.rms, 0.4 * std::sqrt(0.7) / 2,
+              1e-12);  // the share of a single value at the third of four places that no line takes
 }
 
 TEST(ApertureTrajectoryError, IsWhatMeanAndTrendLeaveOfASwayTowardsTheTarget) {
@@ -31,7 +32,8 @@ TEST(ApertureTrajectoryError, IsWhatMeanAndTrendLeaveOfASwayTowardsTheTarget) {
   auto estimate = truth;
   const double towards = 0.01, height = 10, range = std::hypot(29.0, height);
   for (std::size_t i = 0; i < truth.size(); ++i)
-    estimate[i].position += Eigen::Vector3d(3, -2 + 0.05 * truth[i].position.x() - towards * std::sin(2 * kPi * 5 * truth[i].position.x() / 4.02), 0);
+    estimate[i].position += Eigen::Vector3d(
+        3, -2 + 0.05 * truth[i].position.x() - towards * std::sin(2 * kPi * 5 * truth[i].position.x() / 4.02), 0);
   const auto error = apertureTrajectoryError(sonar, timesOf(truth), truth, estimate, kTarget);
   const double expected = towards * 29 / range / std::sqrt(2.0);
   EXPECT_NEAR(error.line_of_sight.rms, expected, 0.02 * expected);
@@ -49,7 +51,8 @@ TEST(ApertureTrajectoryError, OfThePathsHasTheAttitudeToo) {
   for (auto& pose : estimate) pose.C_local_body = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const auto error = apertureTrajectoryError(sonar, timesOf(truth), truth, estimate, kTarget);
   EXPECT_EQ(error.line_of_sight.rms, 0);
-  const double each = yaw * sonar.spacing / 2 / 2 * 29 / std::hypot(29.0, 10.0);  // of half the path; one receiver too near, one too far
+  const double each = yaw * sonar.spacing / 2 / 2 * 29 /
+                      std::hypot(29.0, 10.0);  // of half the path; one receiver too near, one too far
   EXPECT_NEAR(error.path.rms, each, 0.02 * each);
 }
 

@@ -10,7 +10,9 @@ namespace sas_motion::imaging {
 namespace {
 
 TimedPose pose(double seconds, double x, double yaw_deg = 0) {
-  return {stampFromSeconds(seconds), {x, 2 * x, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(yaw_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()))};
+  return {stampFromSeconds(seconds),
+          {x, 2 * x, 0},
+          Eigen::Quaterniond(Eigen::AngleAxisd(yaw_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()))};
 }
 
 double yawDeg(const Eigen::Matrix3d& C) { return std::atan2(C(1, 0), C(0, 0)) / kRadPerDeg; }
@@ -42,7 +44,9 @@ TEST(Trajectory, TakesPosesInAnyOrderAndTheLastOfAStamp) {
 
 TEST(Trajectory, FindsTheFirstStretchWithoutPoses) {
   const Trajectory trajectory({pose(0, 0), pose(1, 0), pose(2, 0), pose(4, 0), pose(5, 0), pose(8, 0)});
-  const auto gap = [&](double begin, double end, double longest) { return trajectory.firstGap(stampFromSeconds(begin), stampFromSeconds(end), longest); };
+  const auto gap = [&](double begin, double end, double longest) {
+    return trajectory.firstGap(stampFromSeconds(begin), stampFromSeconds(end), longest);
+  };
   EXPECT_FALSE(gap(0, 8, 3));
   EXPECT_FALSE(gap(0.5, 2, 1)) << "gaps outside the stretch do not count";
   EXPECT_FALSE(gap(4, 5, 1));

@@ -22,7 +22,8 @@ TEST(FixedDecimals, AreThoseOfFmt) {
   std::uniform_real_distribution<double> exponent(-60, 60), mantissa(-1, 1);
   for (int run = 0; run < 200'000; ++run) {
     const double value = std::ldexp(mantissa(random), static_cast<int>(exponent(random)));
-    for (const int decimals : {1, 9, 12, 15}) ASSERT_EQ(fixed(value, decimals), fmt::format("{:.{}f}", value, decimals)) << value;
+    for (const int decimals : {1, 9, 12, 15})
+      ASSERT_EQ(fixed(value, decimals), fmt::format("{:.{}f}", value, decimals)) << value;
   }
 }
 
@@ -35,9 +36,11 @@ TEST(FixedDecimals, HalfwayGoesToEven) {
 
 TEST(FixedDecimals, TakesEveryNumber) {
   using Limits = std::numeric_limits<double>;
-  for (const double value : {0.0, -0.0, 1.0, -1e-300, 9.2e9, 9.3e9, 1e300, Limits::denorm_min(), Limits::min(), Limits::max(), Limits::infinity(),
-                             -Limits::infinity(), Limits::quiet_NaN(), 0.9999999999, -0.99999999999999, 8999999999.9999999, std::nextafter(0.0, 1.0)})
-    for (const int decimals : {0, 1, 9, 12, 20}) EXPECT_EQ(fixed(value, decimals), fmt::format("{:.{}f}", value, decimals)) << value;
+  for (const double value : {0.0, -0.0, 1.0, -1e-300, 9.2e9, 9.3e9, 1e300, Limits::denorm_min(), Limits::min(),
+                             Limits::max(), Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), 0.9999999999,
+                             -0.99999999999999, 8999999999.9999999, std::nextafter(0.0, 1.0)})
+    for (const int decimals : {0, 1, 9, 12, 20})
+      EXPECT_EQ(fixed(value, decimals), fmt::format("{:.{}f}", value, decimals)) << value;
 }
 
 }  // namespace

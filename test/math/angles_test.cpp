@@ -27,7 +27,8 @@ TEST(WrapAngle, IsTheSameAngleAfterManyTurns) {
     ASSERT_NEAR(std::sin(wrapped), std::sin(angle), 1e-10) << angle;
     ASSERT_NEAR(std::cos(wrapped), std::cos(angle), 1e-10) << angle;
   }
-  for (const double turns : {-1001.0, -3.0, -1.0, 1.0, 3.0, 1001.0}) EXPECT_NEAR(std::abs(wrapAngle(turns * kPi)), kPi, 1e-9) << turns;
+  for (const double turns : {-1001.0, -3.0, -1.0, 1.0, 3.0, 1001.0})
+    EXPECT_NEAR(std::abs(wrapAngle(turns * kPi)), kPi, 1e-9) << turns;
 }
 
 TEST(WrapAngle, WhatIsNoAngleStaysNone) {

@@ -11,10 +11,13 @@ namespace {
 
 TEST(CounterRandom, CountsByTheCipherOfItsPaper) {
   // The known answers that come with Random123: all zeros, all ones, and digits of pi.
-  const auto expect = [](philox4x32_ctr_t counter, philox4x32_key_t key, philox4x32_ctr_t answer) { EXPECT_TRUE(philox4x32(counter, key) == answer); };
+  const auto expect = [](philox4x32_ctr_t counter, philox4x32_key_t key, philox4x32_ctr_t answer) {
+    EXPECT_TRUE(philox4x32(counter, key) == answer);
+  };
   expect({{0, 0, 0, 0}}, {{0, 0}}, {{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}});
   expect({{~0u, ~0u, ~0u, ~0u}}, {{~0u, ~0u}}, {{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}});
-  expect({{0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}}, {{0xa4093822, 0x299f31d0}}, {{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}});
+  expect({{0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}}, {{0xa4093822, 0x299f31d0}},
+         {{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}});
   CounterRandom random(0, {});
   EXPECT_EQ(random(), 0xe169c58d6627e8d5u);
   EXPECT_EQ(random(), 0x9b00dbd8bc57ac4cu);

@@ -30,9 +30,12 @@ TEST(Random, SeedsAndStreamsAreIndependent) {
   const double bound = 5 / std::sqrt(double(count));
   for (std::uint64_t stream = 0; stream < 5; ++stream)
     for (std::uint64_t other = 0; other < stream; ++other) {
-      EXPECT_LT(std::abs(correlation(draws(Random(1, stream), count), draws(Random(1, other), count))), bound) << stream << " " << other;
-      EXPECT_LT(std::abs(correlation(draws(Random(stream, 1), count), draws(Random(other, 1), count))), bound) << stream << " " << other;
-      EXPECT_LT(std::abs(correlation(draws(Random(stream, other), count), draws(Random(other, stream), count))), bound) << stream << " " << other;
+      EXPECT_LT(std::abs(correlation(draws(Random(1, stream), count), draws(Random(1, other), count))), bound)
+          << stream << " " << other;
+      EXPECT_LT(std::abs(correlation(draws(Random(stream, 1), count), draws(Random(other, 1), count))), bound)
+          << stream << " " << other;
+      EXPECT_LT(std::abs(correlation(draws(Random(stream, other), count), draws(Random(other, stream), count))), bound)
+          << stream << " " << other;
     }
 }
 

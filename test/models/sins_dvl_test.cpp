@@ -30,7 +30,8 @@ ins::Track towedTrack() {
 
 /// An INS that starts wrong and reads a unit that errs, and the error that the model makes of the start's.
 struct WrongStart {
-  explicit WrongStart(double duration, const Vector<3>& phi) : trajectory(towedTrack(), duration), errors(Vector<kStates>::Zero()) {
+  explicit WrongStart(double duration, const Vector<3>& phi)
+      : trajectory(towedTrack(), duration), errors(Vector<kStates>::Zero()) {
     const NavigationState truth = trajectory.at(0).state;
     NavigationState wrong = truth;
     displace(wrong, {10, -20, 3});
@@ -75,8 +76,8 @@ TEST(SinsDvlTrack, IsThePapers) {
     const Attitude lies = attitudeOf(truth.q_nav_body.toRotationMatrix());
     EXPECT_NEAR(lies.pitch, 6 * kRadPerDeg * std::sin(2 * kPi / 12 * time + kPi / 4), 1e-12);
     EXPECT_NEAR(lies.heading, kPi / 4 + 3 * kRadPerDeg * std::sin(2 * kPi / 10 * time + kPi / 4), 1e-12);
-    const Vector<3> expected =
-        3 * Vector<3>(std::cos(lies.pitch) * std::sin(lies.heading), std::cos(lies.pitch) * std::cos(lies.heading), std::sin(lies.pitch));
+    const Vector<3> expected = 3 * Vector<3>(std::cos(lies.pitch) * std::sin(lies.heading),
+                                             std::cos(lies.pitch) * std::cos(lies.heading), std::sin(lies.pitch));
     EXPECT_LT((truth.velocity_nav - expected).norm(), 1e-3) << "flat against curved Earth";
     const Vector<3> body = truth.q_nav_body.conjugate() * truth.velocity_nav;
     EXPECT_LT(body.cross(Vector<3>(0, 1, 0)).norm(), 1e-3) << "along the bow";
@@ -93,14 +94,18 @@ TEST(SinsDvlModel, PropagatesLargeErrorsForFiveMinutesAsTheInsItself) {
     // GIVEN a heading error of 5 or 30 degrees, a tilt of half a degree, drifts and biases
     const WrongStart run(300, Vector<3>(0.5, -0.5, heading_deg) * kRadPerDeg);
     // THEN after five minutes the errors are those of the INS against the truth
-    const NavigationState truth = run.trajectory.at(300).state, &ins = run.ins->state(), corrected = View<kStates>(ins).corrected(run.errors);
+    const NavigationState truth = run.trajectory.at(300).state, &ins = run.ins->state(),
+                          corrected = View<kStates>(ins).corrected(run.errors);
     const Vector<3> expected = displacement(truth, ins);
     EXPECT_GT(expected.norm(), 2500);
-    std::cout << heading_deg << " deg: the INS is " << expected.norm() << " m off; the model is off by " << displacement(truth, corrected).norm() << " m, "
-              << (corrected.velocity_nav - truth.velocity_nav).norm() << " m/s, " << attitudeError(corrected.q_nav_body, truth.q_nav_body).norm() << " rad\n";
+    std::cout << heading_deg << " deg: the INS is " << expected.norm() << " m off; the model is off by "
+              << displacement(truth, corrected).norm() << " m, " << (corrected.velocity_nav - truth.velocity_nav).norm()
+              << " m/s, " << attitudeError(corrected.q_nav_body, truth.q_nav_body).norm() << " rad\n";
     EXPECT_LT(displacement(truth, corrected).norm(), 0.4);
     EXPECT_LT((corrected.velocity_nav - truth.velocity_nav).norm(), 0.01);
-    EXPECT_LT((coefficients(ins.q_nav_body) - run.errors.segment<4>(kQuaternion) - coefficients(truth.q_nav_body)).norm(), 1e-5);
+    EXPECT_LT(
+        (coefficients(ins.q_nav_body) - run.errors.segment<4>(kQuaternion) - coefficients(truth.q_nav_body)).norm(),
+        1e-5);
   }
 }
 
@@ -134,13 +139,16 @@ TEST(SinsDvlModel, HasThePapersDifferentialEquations) {
     return earth::rotationRate(s.latitude) + earth::transportRate(s.latitude, s.height, s.velocity_nav);
   };
   const auto pull = [&](const NavigationState& s) -> Vector<3> {
-    return Vector<3>(0, 0, -earth::gravity(s.latitude, s.height)) - (earth::rotationRate(s.latitude) + turnOf(s)).cross(s.velocity_nav);
+    return Vector<3>(0, 0, -earth::gravity(s.latitude, s.height)) -
+           (earth::rotationRate(s.latitude) + turnOf(s)).cross(s.velocity_nav);
   };
   const auto& truth = sample.state;
   const Vector<4> dq = x.segment<4>(kQuaternion);
-  const Vector<4> dq_rate = 0.5 * (rightProduct(pure(rate)) - leftProduct(pure(turnOf(ins)))) * dq + 0.5 * rightTurn(truth.q_nav_body) * eps -
-                            0.5 * leftTurn(truth.q_nav_body) * (turnOf(ins) - turnOf(truth));                                // (B.1)
-  const Vector<3> dv_rate = ins.q_nav_body * force - truth.q_nav_body * Vector<3>(force - nabla) + pull(ins) - pull(truth);  // (B.2)
+  const Vector<4> dq_rate = 0.5 * (rightProduct(pure(rate)) - leftProduct(pure(turnOf(ins)))) * dq +
+                            0.5 * rightTurn(truth.q_nav_body) * eps -
+                            0.5 * leftTurn(truth.q_nav_body) * (turnOf(ins) - turnOf(truth));  // (B.1)
+  const Vector<3> dv_rate =
+      ins.q_nav_body * force - truth.q_nav_body * Vector<3>(force - nabla) + pull(ins) - pull(truth);  // (B.2)
   // WHEN the model moves them over a short time
   const double T = 1e-3;
   Preintegration felt;
@@ -151,19 +159,22 @@ TEST(SinsDvlModel, HasThePapersDifferentialEquations) {
   EXPECT_LT((change.segment<3>(kVelocity) - dv_rate).norm(), 2e-3 * dv_rate.norm());
   const auto [M, N] = earth::radii(truth.latitude, truth.height);
   const auto [M_ins, N_ins] = earth::radii(ins.latitude, ins.height);
-  const Vector<3> dp_rate(ins.velocity_nav.y() / M_ins - truth.velocity_nav.y() / M,
-                          ins.velocity_nav.x() / (N_ins * std::cos(ins.latitude)) - truth.velocity_nav.x() / (N * std::cos(truth.latitude)),
-                          x(kVelocity + 2));  // (B.3)
+  const Vector<3> dp_rate(
+      ins.velocity_nav.y() / M_ins - truth.velocity_nav.y() / M,
+      ins.velocity_nav.x() / (N_ins * std::cos(ins.latitude)) - truth.velocity_nav.x() / (N * std::cos(truth.latitude)),
+      x(kVelocity + 2));  // (B.3)
   EXPECT_LT((change.head<2>() - dp_rate.head<2>()).norm() * M, 0.005);
   EXPECT_NEAR(change(2), dp_rate(2), 0.002);
   EXPECT_NEAR(change(kDvlOffset), 0, 1e-9);
 }
 
 TEST(SinsDvlModel, SmallErrorsFollowTheLinearModelOfIns) {
-  // GIVEN small attitude errors phi, THEN the quaternion form and C' = (I - [phi x]) C move alike: the latter is checked against the mechanisation
+  // GIVEN small attitude errors phi, THEN the quaternion form and C' = (I - [phi x]) C move alike: the latter is
+  // checked against the mechanisation
   const Vector<3> phi(2e-4, -3e-4, 5e-4);
   const WrongStart run(60, phi);
-  const NavigationState truth = run.trajectory.at(60).state, corrected = View<kStates>(run.ins->state()).corrected(run.errors);
+  const NavigationState truth = run.trajectory.at(60).state,
+                        corrected = View<kStates>(run.ins->state()).corrected(run.errors);
   const Vector<3> expected = attitudeError(run.ins->state().q_nav_body, truth.q_nav_body);
   const Matrix<9, kStates> T = View<kStates>(run.ins->state()).solutionByError(run.errors);
   EXPECT_LT((T * run.errors).tail<3>().norm() / expected.norm(), 1.001);
@@ -224,7 +235,8 @@ TEST(InSmallAngles, ReadTheSameDvl) {
   ins::Errors mean = ins::Errors::Zero();
   mean.segment<3>(ins::kDvlVelocity) << x(kDvlAngle), x(kDvlOffset), 0;
   EXPECT_GT(model.dvl(state, Vector<3>::Zero(), reading, ins::Errors::Zero()).innovation.norm(), 0.02);
-  EXPECT_LT(model.dvl(state, Vector<3>::Zero(), reading, mean).innovation.norm(), 0.5 * 0.005 * 0.005 * state.velocity_nav.norm() * 1.01);
+  EXPECT_LT(model.dvl(state, Vector<3>::Zero(), reading, mean).innovation.norm(),
+            0.5 * 0.005 * 0.005 * state.velocity_nav.norm() * 1.01);
 }
 
 TEST(SinsDvlModel, TheNoiseOfATurnIsThatOfQuaternionsThatAreTurned) {

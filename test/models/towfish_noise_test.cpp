@@ -48,14 +48,16 @@ TEST(TowfishNoise, IsVanLoansIntegral) {
   MotionParameters p;
   p.current_time_constant = 60;
   const Model model(p);
-  for (const double T : {0.003, 0.03, 0.059, 0.061, 0.6, 1.0, 10.0, 100.0}) {  // the series for the current ends at 0.06 s
+  for (const double T :
+       {0.003, 0.03, 0.059, 0.061, 0.6, 1.0, 10.0, 100.0}) {  // the series for the current ends at 0.06 s
     const StateVector x = someState(random);
     const auto step = model.transition(x, {}, T);
     const auto [F, Q] = Continuous(p, x(kHeading), x(kSpeed)).discrete(T);
     EXPECT_LT(testing::relativeDifference(step.F, F), 1e-11) << T;
     for (int row = 0; row < kStates; ++row)
       for (int col = 0; col < kStates; ++col)  // against the size that the two states' variances allow
-        EXPECT_NEAR(step.Q(row, col), Q(row, col), 1e-9 * std::sqrt(Q(row, row) * Q(col, col))) << T << " s, " << row << ", " << col;
+        EXPECT_NEAR(step.Q(row, col), Q(row, col), 1e-9 * std::sqrt(Q(row, row) * Q(col, col)))
+            << T << " s, " << row << ", " << col;
   }
 }
 
@@ -67,7 +69,8 @@ TEST(TowfishNoise, TwoStepsAddUpToOneOfTwiceTheLength) {
     const auto one = model.transition(x, {}, T), two = model.transition(x, {}, 2 * T);
     const StateMatrix sum = one.F * one.Q * one.F.transpose() + one.Q;  // without a turn rate F does not change
     for (int i = 0; i < kStates; ++i)
-      for (int j = 0; j < kStates; ++j) EXPECT_NEAR(two.Q(i, j), sum(i, j), 1e-8 * std::sqrt(sum(i, i) * sum(j, j))) << T << " s, " << i << ", " << j;
+      for (int j = 0; j < kStates; ++j)
+        EXPECT_NEAR(two.Q(i, j), sum(i, j), 1e-8 * std::sqrt(sum(i, i) * sum(j, j))) << T << " s, " << i << ", " << j;
   }
 }
 

@@ -18,10 +18,13 @@ Measurement reading(Sensor sensor, double seconds, const Vector<2>& value, doubl
   return z;
 }
 
-/// Ten seconds of a vessel that leaves (100, 200) at 2 m/s heading south, a share of its readings scattered far and wide.
+/// Ten seconds of a vessel that leaves (100, 200) at 2 m/s heading south, a share of its readings scattered far and
+/// wide.
 std::vector<Measurement> window(Random& random, double outliers) {
   std::vector<Measurement> measurements;
-  const auto noise = [&](double sigma, double far) { return random.bernoulli(outliers) ? far * random.gaussian() : sigma * random.gaussian(); };
+  const auto noise = [&](double sigma, double far) {
+    return random.bernoulli(outliers) ? far * random.gaussian() : sigma * random.gaussian();
+  };
   for (int i = 0; i < 100; ++i) {
     const double t = 0.1 * i;
     measurements.push_back(reading(Sensor::Position, t, {100 - 2 * t + noise(1, 500), 200 + noise(1, 500)}, 1));
@@ -49,14 +52,17 @@ TEST(TowfishStart, NeedsAPositionAndAHeading) {
   Random random = testing::announced(102);
   for (const Sensor missing : {Sensor::Position, Sensor::Heading}) {
     auto measurements = window(random, 0);
-    measurements.erase(std::remove_if(measurements.begin(), measurements.end(), [&](const auto& z) { return z.sensor == missing; }), measurements.end());
+    measurements.erase(
+        std::remove_if(measurements.begin(), measurements.end(), [&](const auto& z) { return z.sensor == missing; }),
+        measurements.end());
     EXPECT_FALSE(startingBelief(kBegin, measurements, StartOptions(), 0.2)) << sensorName(missing);
   }
   EXPECT_FALSE(startingBelief(kBegin, {}, StartOptions(), 0.2));
 }
 
 TEST(TowfishStart, WithoutASpeedItSaysThatItDoesNotKnow) {
-  const std::vector<Measurement> two{reading(Sensor::Position, 0, {1, 2}, 1), reading(Sensor::Heading, 0, {3, 0}, 0.01)};
+  const std::vector<Measurement> two{reading(Sensor::Position, 0, {1, 2}, 1),
+                                     reading(Sensor::Heading, 0, {3, 0}, 0.01)};
   const auto belief = startingBelief(kBegin, two, StartOptions(), 0.2);
   ASSERT_TRUE(belief);
   EXPECT_EQ(belief->mean(kSpeed), 0);

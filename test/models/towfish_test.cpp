@@ -13,8 +13,8 @@ using testing::announced;
 
 StateVector randomState(Random& random) {
   StateVector x;
-  x << 500 * random.gaussian(), 500 * random.gaussian(), 0.3 * random.gaussian(), 0.3 * random.gaussian(), kPi * (2 * random.uniform() - 1),
-      2 + random.gaussian();
+  x << 500 * random.gaussian(), 500 * random.gaussian(), 0.3 * random.gaussian(), 0.3 * random.gaussian(),
+      kPi * (2 * random.uniform() - 1), 2 + random.gaussian();
   return x;
 }
 
@@ -36,7 +36,8 @@ TEST(TowfishModel, MotionJacobianMatchesCentralDifferences) {
     EXPECT_LT(Model::difference(step.mean, model.predict(x, input, dt)).cwiseAbs().maxCoeff(), 1e-9);
     for (int col = 0; col < kStates; ++col) {
       const StateVector e = h * StateVector::Unit(col);
-      const StateVector slope = Model::difference(model.predict(x + e, input, dt), model.predict(x - e, input, dt)) / (2 * h);
+      const StateVector slope =
+          Model::difference(model.predict(x + e, input, dt), model.predict(x - e, input, dt)) / (2 * h);
       EXPECT_LT((slope - step.F.col(col)).cwiseAbs().maxCoeff(), 1e-6 * (1 + dt)) << "column " << col << ", dt " << dt;
     }
   }
@@ -65,7 +66,8 @@ TEST(TowfishModel, MeasurementJacobiansMatchCentralDifferences) {
             });
           };
           const Vector<2> slope = -(innovation(x + e) - innovation(x - e)) / (2 * h);  // of h = z - innovation
-          EXPECT_LT((slope.head<Rows::RowsAtCompileTime>() - linear.H.col(col)).cwiseAbs().maxCoeff(), 1e-6) << sensorName(sensor) << " " << col;
+          EXPECT_LT((slope.head<Rows::RowsAtCompileTime>() - linear.H.col(col)).cwiseAbs().maxCoeff(), 1e-6)
+              << sensorName(sensor) << " " << col;
         }
       });
     }
@@ -107,7 +109,8 @@ TEST(TowfishModel, MeanFollowsThePapersEquationsOfMotion) {  // (1), integrated 
     fine(kHeading) += h * input.turn_rate;
   }
   const StateVector one = Model::difference(model.predict(x, input, T), fine);
-  EXPECT_LT(one.head<2>().norm(), x(kSpeed) * T * std::pow(input.turn_rate * T, 2) / 24 * 1.1);  // the midpoint rule's error
+  EXPECT_LT(one.head<2>().norm(),
+            x(kSpeed) * T * std::pow(input.turn_rate * T, 2) / 24 * 1.1);  // the midpoint rule's error
   EXPECT_LT(one.tail<4>().cwiseAbs().maxCoeff(), 1e-5);
   StateVector many = x;
   for (int i = 0; i < 20; ++i) many = model.predict(many, input, T / 20);
@@ -133,7 +136,8 @@ TEST(TowfishModel, AntennaStandsWhereItsLeverArmPoints) {
   Measurement z;
   z.lever_arm_body << 4, 1;  // forward, starboard
   StateVector x = StateVector::Zero();
-  EXPECT_LT((Model::expected(z, x) - Vector<2>(4, 1)).norm(), 1e-12);  // heading north: forward is north, starboard east
+  EXPECT_LT((Model::expected(z, x) - Vector<2>(4, 1)).norm(),
+            1e-12);  // heading north: forward is north, starboard east
   x(kHeading) = kPi / 2;
   EXPECT_LT((Model::expected(z, x) - Vector<2>(-1, 4)).norm(), 1e-12);  // heading east: starboard is south
 }

@@ -38,8 +38,10 @@ TEST_P(EveryMode, ItsJacobianIsThatOfDifferences) {
     for (int i = 0; i < kUnknowns; ++i) {
       const double h = isAngle(i) || i == kRangeScale ? 1e-6 : 1e-4;
       const Unknowns step = h * Unknowns::Unit(i);
-      const Vector<3> numeric = model.difference(model.predict(Unknowns(x + step), ping), model.predict(Unknowns(x - step), ping)) / (2 * h);
-      EXPECT_LT((H.col(i) - numeric).norm(), 1e-5 * (1 + numeric.norm())) << unknownNames()[static_cast<std::size_t>(i)];
+      const Vector<3> numeric =
+          model.difference(model.predict(Unknowns(x + step), ping), model.predict(Unknowns(x - step), ping)) / (2 * h);
+      EXPECT_LT((H.col(i) - numeric).norm(), 1e-5 * (1 + numeric.norm()))
+          << unknownNames()[static_cast<std::size_t>(i)];
     }
   }
 }
@@ -109,7 +111,8 @@ TEST(Usbl, ADirectionThatCannotBeIsNoAzimuth) {
 }
 
 TEST(Usbl, ChannelsWithoutAVarianceAreAbsent) {
-  for (const double variance : std::vector<double>{0, -1, NAN, INFINITY}) EXPECT_FALSE((Reading{{1, 1, 1}, {variance, 1, 1}}).has(0)) << variance;
+  for (const double variance : std::vector<double>{0, -1, NAN, INFINITY})
+    EXPECT_FALSE((Reading{{1, 1, 1}, {variance, 1, 1}}).has(0)) << variance;
   EXPECT_FALSE((Reading{{NAN, 1, 1}, {1, 1, 1}}).has(0));
 }
 

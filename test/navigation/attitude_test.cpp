@@ -10,7 +10,8 @@ namespace {
 
 TEST(Attitude, HasTheTextbooksMatrix) {
   const double p = 0.3, r = -0.5, h = 2.1;
-  const double cp = std::cos(p), sp = std::sin(p), cr = std::cos(r), sr = std::sin(r), ch = std::cos(h), sh = std::sin(h);
+  const double cp = std::cos(p), sp = std::sin(p), cr = std::cos(r), sr = std::sin(r), ch = std::cos(h),
+               sh = std::sin(h);
   Matrix<3> expected;
   expected << cr * ch + sr * sp * sh, cp * sh, sr * ch - cr * sp * sh,  //
       -cr * sh + sr * sp * ch, cp * ch, -sr * sh - cr * sp * ch,        //

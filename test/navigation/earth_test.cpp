@@ -26,7 +26,9 @@ TEST(Earth, RadiiAreThoseOfGeographicLib) {
 
 TEST(Earth, GravityIsTheNormalGravityOfGeographicLib) {
   for (const double degrees : kLatitudes) {
-    EXPECT_NEAR(earth::gravity(degrees * kRadPerDeg, 0), GeographicLib::NormalGravity::WGS84().SurfaceGravity(degrees), 2e-6) << degrees;
+    EXPECT_NEAR(earth::gravity(degrees * kRadPerDeg, 0), GeographicLib::NormalGravity::WGS84().SurfaceGravity(degrees),
+                2e-6)
+        << degrees;
     double north = 0, up = 0;
     GeographicLib::NormalGravity::WGS84().Gravity(degrees, 100, north, up);
     EXPECT_NEAR(earth::gravity(degrees * kRadPerDeg, 100), -up, 3e-6) << degrees;

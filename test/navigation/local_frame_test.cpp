@@ -12,8 +12,9 @@ namespace {
 
 class Datum : public ::testing::TestWithParam<Geodetic> {};
 INSTANTIATE_TEST_SUITE_P(LocalFrame, Datum,
-                         ::testing::Values(Geodetic{54.35, 10.15, 0}, Geodetic{-17.5, 179.999, 12}, Geodetic{0, -180, -30}, Geodetic{89.9, 33, 0},
-                                           Geodetic{-89.9, -120, 5}, Geodetic{0, 0, 0}));
+                         ::testing::Values(Geodetic{54.35, 10.15, 0}, Geodetic{-17.5, 179.999, 12},
+                                           Geodetic{0, -180, -30}, Geodetic{89.9, 33, 0}, Geodetic{-89.9, -120, 5},
+                                           Geodetic{0, 0, 0}));
 
 TEST_P(Datum, RoundTripsToAMillimetreOverTenKilometres) {
   Random random = testing::announced(5);
@@ -46,7 +47,8 @@ TEST_P(Datum, EastIsFirstNorthSecondUpThird) {
 TEST(LocalFrame, ADegreeOfLongitudeShrinksWithTheCosineOfLatitude) {
   const double a = 6378137, e2 = 6.69437999014e-3;  // WGS 84
   for (const double latitude : {0.0, 30.0, 60.0}) {
-    const double s = std::sin(latitude * kRadPerDeg), radius = a / std::sqrt(1 - e2 * s * s) * std::cos(latitude * kRadPerDeg);
+    const double s = std::sin(latitude * kRadPerDeg),
+                 radius = a / std::sqrt(1 - e2 * s * s) * std::cos(latitude * kRadPerDeg);
     const LocalFrame frame({latitude, 20, 0});
     EXPECT_NEAR(frame.position_enu({latitude, 20.001, 0})(0), radius * 1e-3 * kRadPerDeg, 1e-5) << latitude;
   }
@@ -54,9 +56,10 @@ TEST(LocalFrame, ADegreeOfLongitudeShrinksWithTheCosineOfLatitude) {
 
 TEST(LocalFrame, RefusesADatumThatIsNoPlaceOnEarth) {
   const double nan = std::nan("");
-  for (const Geodetic& bad :
-       {Geodetic{91, 0, 0}, Geodetic{-90.01, 0, 0}, Geodetic{nan, 0, 0}, Geodetic{0, nan, 0}, Geodetic{0, HUGE_VAL, 0}, Geodetic{0, 0, nan}})
-    EXPECT_THROW(LocalFrame{bad}, std::invalid_argument) << bad.latitude_deg << " " << bad.longitude_deg << " " << bad.altitude;
+  for (const Geodetic& bad : {Geodetic{91, 0, 0}, Geodetic{-90.01, 0, 0}, Geodetic{nan, 0, 0}, Geodetic{0, nan, 0},
+                              Geodetic{0, HUGE_VAL, 0}, Geodetic{0, 0, nan}})
+    EXPECT_THROW(LocalFrame{bad}, std::invalid_argument)
+        << bad.latitude_deg << " " << bad.longitude_deg << " " << bad.altitude;
 }
 
 }  // namespace

@@ -52,7 +52,9 @@ TEST(Mechanisation, StaysOnTheTruthInAHighSea) {
 TEST(Mechanisation, ConingIsSeenBetweenReadings) {
   // GIVEN a cone of 0.1 rad at 2 Hz, whose mean rate about the up axis no single reading shows
   constexpr double kAngle = 0.1, kTurn = 2 * 2 * kPi, kRate = 100;
-  const auto attitude = [&](double t) { return Eigen::Quaterniond(Eigen::AngleAxisd(kAngle, Vector<3>(std::cos(kTurn * t), std::sin(kTurn * t), 0))); };
+  const auto attitude = [&](double t) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(kAngle, Vector<3>(std::cos(kTurn * t), std::sin(kTurn * t), 0)));
+  };
   NavigationState start;
   start.q_nav_body = attitude(0);
   Mechanisation ins(start, 0, {1 / kRate, 0.1, 20, 200});
@@ -64,16 +66,20 @@ TEST(Mechanisation, ConingIsSeenBetweenReadings) {
     Vector<3> mean = Vector<3>::Zero();
     for (int i = 0; i < 20; ++i) mean += rate((k - 1 + (i + 0.5) / 20) / kRate) / 20;
     const Vector<3> of_nav = earth::rotationRate(0);
-    ins.step({stampFromSeconds(k / kRate), mean + ins.state().q_nav_body.conjugate() * of_nav, Vector<3>(0, 0, earth::gravity(0, 0))});
+    ins.step({stampFromSeconds(k / kRate), mean + ins.state().q_nav_body.conjugate() * of_nav,
+              Vector<3>(0, 0, earth::gravity(0, 0))});
   }
-  // THEN after 10 s the attitude is right; without the correction it would be off by 10 s * 0.5 kAngle^2 kTurn (kTurn dt)^2 / 6 = 1.6e-3 rad
+  // THEN after 10 s the attitude is right; without the correction it would be off by 10 s * 0.5 kAngle^2 kTurn (kTurn
+  // dt)^2 / 6 = 1.6e-3 rad
   EXPECT_LT(attitudeError(ins.state().q_nav_body, attitude(10)).norm(), 1e-4);
 }
 
 TEST(Mechanisation, ReportsGapsAndWrongRatesAsData) {
   Mechanisation ins({}, 0, {0.01, 0.1, 20, 200});
   const Vector<3> rate(0, 0, 0.1), force(0, 0, earth::gravity(0, 0));
-  const auto step = [&](double time, const Vector<3>& w) { return ins.step({stampFromSeconds(time), w, force}).verdict; };
+  const auto step = [&](double time, const Vector<3>& w) {
+    return ins.step({stampFromSeconds(time), w, force}).verdict;
+  };
   EXPECT_EQ(step(0, rate), ImuVerdict::Started);
   EXPECT_EQ(step(0.01, rate), ImuVerdict::Integrated);
   EXPECT_EQ(step(0.01, rate), ImuVerdict::OutOfOrder);

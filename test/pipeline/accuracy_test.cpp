@@ -21,7 +21,8 @@ TEST(Accuracy, NormalisedErrorsOfTheKalmanFilterLieInTheirBands) {
     double full = 0;
     for (int seed = 1; seed <= runs; ++seed) {
       const auto run = testing::simulate(scenario, static_cast<std::uint64_t>(seed));
-      const Estimate last = testing::feed(name, config, run.measurements).estimates.back();  // one sample a run: independent
+      const Estimate last =
+          testing::feed(name, config, run.measurements).estimates.back();  // one sample a run: independent
       const StateVector error = Model::difference(last.belief.mean, run.truthAt(last.stamp));
       full += error.dot(last.belief.covariance.llt().solve(error)) / runs;
       for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -31,7 +32,8 @@ TEST(Accuracy, NormalisedErrorsOfTheKalmanFilterLieInTheirBands) {
         for (Eigen::Index i = 0; i < size; ++i) {
           e(i) = error(groups[g][static_cast<std::size_t>(i)]);
           for (Eigen::Index j = 0; j < size; ++j)
-            P(i, j) = last.belief.covariance(groups[g][static_cast<std::size_t>(i)], groups[g][static_cast<std::size_t>(j)]);
+            P(i, j) =
+                last.belief.covariance(groups[g][static_cast<std::size_t>(i)], groups[g][static_cast<std::size_t>(j)]);
         }
         nees[g] += e.dot(P.llt().solve(e)) / runs;
       }
@@ -55,7 +57,8 @@ TEST(Accuracy, InnovationsOfTheKalmanFilterAreWhiteEnoughForTheirBand) {
   const auto output = testing::feed("kf", testing::configFor(scenario), testing::simulate(scenario, 1).measurements);
   std::array<std::vector<double>, kSensors> nis;
   for (const auto& audit : output.audits)
-    if (secondsBetween(Simulator::kStart, audit.stamp) > 20) nis[static_cast<std::size_t>(audit.sensor)].push_back(audit.nis);
+    if (secondsBetween(Simulator::kStart, audit.stamp) > 20)
+      nis[static_cast<std::size_t>(audit.sensor)].push_back(audit.nis);
   for (const Sensor sensor : {Sensor::Position, Sensor::Heading, Sensor::Speed}) {
     const auto& values = nis[static_cast<std::size_t>(sensor)];
     const Band band = averageChiSquaredBand(rowsOf(sensor), static_cast<double>(values.size()), 0.999);
@@ -65,9 +68,10 @@ TEST(Accuracy, InnovationsOfTheKalmanFilterAreWhiteEnoughForTheirBand) {
 }
 
 TEST(Accuracy, RobustnessCostsLittleAndGainsMuch) {
-  const auto suite = sas_motion::testing::suiteOf(sas_motion::testing::zhuSuite(150, 10, "[kf, oracle_kf, robust_kf, mixture_kf, bank_kf, student_t_kf]",
-                                                                                "[{name: clean}, {name: '0.1, 10', noise: {law: contaminated, epsilon: 0.1, K: "
-                                                                                "10}}, {name: '0.2, 20', noise: {law: contaminated, epsilon: 0.2, K: 20}}]"));
+  const auto suite = sas_motion::testing::suiteOf(
+      sas_motion::testing::zhuSuite(150, 10, "[kf, oracle_kf, robust_kf, mixture_kf, bank_kf, student_t_kf]",
+                                    "[{name: clean}, {name: '0.1, 10', noise: {law: contaminated, epsilon: 0.1, K: "
+                                    "10}}, {name: '0.2, 20', noise: {law: contaminated, epsilon: 0.2, K: 20}}]"));
   const auto runs = sas_motion::testing::runAll(suite);
   for (const auto& run : runs)
     for (const auto& report : run) EXPECT_FALSE(report.diverged);

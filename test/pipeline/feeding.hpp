@@ -10,7 +10,8 @@
 namespace sas_motion::testing {
 
 inline const std::vector<std::string>& filterNames() {
-  static const std::vector<std::string> names{"kf", "gated_kf", "robust_kf", "student_t_kf", "mckf", "mixture_kf", "bank_kf", "robust_kf_tukey"};
+  static const std::vector<std::string> names{"kf",   "gated_kf",   "robust_kf", "student_t_kf",
+                                              "mckf", "mixture_kf", "bank_kf",   "robust_kf_tukey"};
   return names;
 }
 
@@ -22,13 +23,15 @@ inline towfish::Output feed(towfish::Estimator& estimator, const std::vector<tow
   return output;
 }
 
-inline towfish::Output feed(const std::string& name, const towfish::Config& config, const std::vector<towfish::Measurement>& measurements) {
+inline towfish::Output feed(const std::string& name, const towfish::Config& config,
+                            const std::vector<towfish::Measurement>& measurements) {
   const auto estimator = towfish::makeEstimator(name, config);
   return feed(*estimator, measurements);
 }
 
 inline std::size_t count(const towfish::Output& output, Verdict verdict) {
-  return static_cast<std::size_t>(std::count_if(output.audits.begin(), output.audits.end(), [&](const auto& audit) { return audit.verdict == verdict; }));
+  return static_cast<std::size_t>(std::count_if(output.audits.begin(), output.audits.end(),
+                                                [&](const auto& audit) { return audit.verdict == verdict; }));
 }
 
 /// Equal to the last bit.
@@ -42,9 +45,12 @@ inline void expectSameEstimates(const towfish::Output& a, const towfish::Output&
 }
 
 inline void expectRisingStamps(const towfish::Output& output) {
-  for (std::size_t i = 1; i < output.estimates.size(); ++i) ASSERT_GT(output.estimates[i].stamp, output.estimates[i - 1].stamp) << "estimate " << i;
+  for (std::size_t i = 1; i < output.estimates.size(); ++i)
+    ASSERT_GT(output.estimates[i].stamp, output.estimates[i - 1].stamp) << "estimate " << i;
 }
 
-inline double positionError(const towfish::Estimate& estimate, const Run& run) { return (estimate.belief.mean - run.truthAt(estimate.stamp)).head<2>().norm(); }
+inline double positionError(const towfish::Estimate& estimate, const Run& run) {
+  return (estimate.belief.mean - run.truthAt(estimate.stamp)).head<2>().norm();
+}
 
 }  // namespace sas_motion::testing

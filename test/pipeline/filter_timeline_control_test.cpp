@@ -45,7 +45,8 @@ TEST_P(Control, ASetStateIsTheStateAtItsStampAndWhatCameLaterIsFusedOnIt) {
   }
   estimator->finish(output);
   testing::expectRisingStamps(output);
-  for (std::size_t i = 0; output.estimates[i].stamp < kWhen; ++i) ASSERT_EQ(output.estimates[i].belief.mean, expected.estimates[i].belief.mean);
+  for (std::size_t i = 0; output.estimates[i].stamp < kWhen; ++i)
+    ASSERT_EQ(output.estimates[i].belief.mean, expected.estimates[i].belief.mean);
 }
 
 TEST_P(Control, ASetStateReplacesTheStart) {
@@ -63,8 +64,10 @@ TEST(Control, AStampThatIsSettledOrFarAwayIsRefused) {
   const auto estimator = makeEstimator("kf", testing::configFor(scenario));
   Output output = feed(*estimator, testing::simulate(scenario, 23).measurements);
   const auto before = estimator->current();
-  EXPECT_STREQ(estimator->setState(elsewhere(before->stamp - kNanosecondsPerSecond), output), "the stamp is older than the lag");
-  EXPECT_STREQ(estimator->setState(elsewhere(before->stamp + 3600 * kNanosecondsPerSecond), output), "the stamp is far from those of the measurements");
+  EXPECT_STREQ(estimator->setState(elsewhere(before->stamp - kNanosecondsPerSecond), output),
+               "the stamp is older than the lag");
+  EXPECT_STREQ(estimator->setState(elsewhere(before->stamp + 3600 * kNanosecondsPerSecond), output),
+               "the stamp is far from those of the measurements");
   EXPECT_EQ(estimator->current()->belief.mean, before->belief.mean);
   EXPECT_EQ(estimator->setState(elsewhere(before->stamp), output), nullptr);
   EXPECT_STREQ(makeEstimator("rts", {})->setState(elsewhere(before->stamp), output), "it keeps no present state");
@@ -113,7 +116,8 @@ TEST(Control, OtherSettingsCountFromTheNextMeasurementOnAndNotInAReplay) {
   }
   EXPECT_TRUE(differs);
   std::size_t replayed = 0;  // came before the change, fused again after it: still by Huber's loss
-  for (const auto& audit : output.audits) replayed += audit.stamp > late.stamp && audit.stamp <= change && audit.iterations > 1;
+  for (const auto& audit : output.audits)
+    replayed += audit.stamp > late.stamp && audit.stamp <= change && audit.iterations > 1;
   EXPECT_GT(replayed, 0u);
   for (const auto& audit : output.audits) EXPECT_TRUE(audit.stamp <= change || audit.verdict != Verdict::DownWeighted);
 }

@@ -115,7 +115,8 @@ TEST(Faults, ResetForgetsEverything) {
   feed(*estimator, testing::simulate(scenario, 6).measurements);
   estimator->reset();
   EXPECT_FALSE(estimator->current());
-  testing::expectSameEstimates(feed("mixture_kf", config, measurements), feed(*estimator, measurements), "after a reset");
+  testing::expectSameEstimates(feed("mixture_kf", config, measurements), feed(*estimator, measurements),
+                               "after a reset");
 }
 
 TEST(Faults, WithoutAPositionOrAHeadingItStaysSilentAndSaysWhy) {

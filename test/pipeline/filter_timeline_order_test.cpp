@@ -12,7 +12,8 @@ namespace {
 using testing::feed;
 
 /// Measurements in the order in which they arrive when each is up to `longest` seconds late, some of them twice.
-std::vector<Measurement> shuffled(const std::vector<Measurement>& measurements, double longest, double twice, Random& random) {
+std::vector<Measurement> shuffled(const std::vector<Measurement>& measurements, double longest, double twice,
+                                  Random& random) {
   std::vector<std::pair<Stamp, Measurement>> arrivals;
   for (const auto& z : measurements) {
     arrivals.emplace_back(z.stamp + stampFromSeconds(longest * random.uniform()), z);
@@ -40,7 +41,8 @@ TEST_P(Order, LateAndRepeatedMeasurementsChangeNothing) {
     for (const double longest : {0.05, 1.0, 4.9}) {
       const auto late = feed(GetParam(), config, shuffled(measurements, longest, 0.1, random));
       EXPECT_EQ(testing::count(late, Verdict::Stale), 0u);
-      testing::expectSameEstimates(in_order, late, "seed " + std::to_string(seed) + ", late by " + std::to_string(longest));
+      testing::expectSameEstimates(in_order, late,
+                                   "seed " + std::to_string(seed) + ", late by " + std::to_string(longest));
     }
   }
 }
@@ -50,12 +52,15 @@ TEST(Order, TheLateStartOfASensorDoesNotMatterEither) {
   const Config config = testing::configFor(scenario);
   auto measurements = testing::simulate(scenario, 4).measurements;
   const Stamp fix = Simulator::kStart + stampFromSeconds(12);
-  measurements.erase(std::remove_if(measurements.begin(), measurements.end(), [&](const auto& z) { return z.sensor == Sensor::Position && z.stamp < fix; }),
+  measurements.erase(std::remove_if(measurements.begin(), measurements.end(),
+                                    [&](const auto& z) { return z.sensor == Sensor::Position && z.stamp < fix; }),
                      measurements.end());
   const auto in_order = feed("robust_kf", config, measurements);
   ASSERT_GT(in_order.estimates.size(), 200u);
   Random random = testing::announced(202);
-  for (int i = 0; i < 5; ++i) testing::expectSameEstimates(in_order, feed("robust_kf", config, shuffled(measurements, 4.9, 0.1, random)), "shuffle");
+  for (int i = 0; i < 5; ++i)
+    testing::expectSameEstimates(in_order, feed("robust_kf", config, shuffled(measurements, 4.9, 0.1, random)),
+                                 "shuffle");
 }
 
 TEST(Order, ExactDuplicatesAreReportedOnce) {
@@ -63,7 +68,8 @@ TEST(Order, ExactDuplicatesAreReportedOnce) {
   const Config config = testing::configFor(scenario);
   const auto measurements = testing::simulate(scenario, 5).measurements;
   auto doubled = measurements;
-  for (std::size_t i = 0; i < measurements.size(); ++i) doubled.insert(doubled.begin() + static_cast<std::ptrdiff_t>(2 * i), measurements[i]);
+  for (std::size_t i = 0; i < measurements.size(); ++i)
+    doubled.insert(doubled.begin() + static_cast<std::ptrdiff_t>(2 * i), measurements[i]);
   const auto once = feed("robust_kf", config, measurements), twice = feed("robust_kf", config, doubled);
   testing::expectSameEstimates(once, twice, "doubled");
   EXPECT_EQ(testing::count(twice, Verdict::Invalid), measurements.size());
@@ -77,8 +83,8 @@ TEST(Order, OlderThanTheLagIsStaleAndChangesNothing) {
   std::size_t held_back = 0;
   std::vector<Measurement> waiting;
   for (const auto& z : measurements) {
-    const bool hold =
-        z.sensor == Sensor::Position && secondsBetween(Simulator::kStart, z.stamp) > 20 && z.stamp % (3 * kNanosecondsPerSecond) < kNanosecondsPerSecond;
+    const bool hold = z.sensor == Sensor::Position && secondsBetween(Simulator::kStart, z.stamp) > 20 &&
+                      z.stamp % (3 * kNanosecondsPerSecond) < kNanosecondsPerSecond;
     if (hold) {
       waiting.push_back(z);
       ++held_back;

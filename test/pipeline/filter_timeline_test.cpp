@@ -90,7 +90,8 @@ TEST(FilterTimeline, FollowsAHeadingThroughSouthAThousandTimes) {
       estimator->process(reading(Sensor::TurnRate, t, {t < 10 ? 0 : rate, 0}, 0.01), output);
       refused += testing::count(output, Verdict::Invalid);
       output.clear();
-      if (const auto now = estimator->current(); now && t > 15) worst = std::max(worst, std::abs(wrapAngle(now->belief.mean(kHeading) - heading)));
+      if (const auto now = estimator->current(); now && t > 15)
+        worst = std::max(worst, std::abs(wrapAngle(now->belief.mean(kHeading) - heading)));
     }
     EXPECT_LT(worst, 0.05) << name;
     EXPECT_GT(worst, 0) << name;
@@ -103,7 +104,8 @@ TEST(FilterTimeline, EstimatorsAreMadeByName) {
   for (const auto& name : testing::filterNames()) EXPECT_TRUE(makeEstimator(name, config)) << name;
   for (const auto& loss : lossNames()) EXPECT_TRUE(makeEstimator("robust_kf_" + loss, config)) << loss;
   EXPECT_TRUE(makeEstimator("rts", config));
-  for (const char* wrong : {"", "KF", "robust_kf_", "robust_kf_hubert", "robust", "kf "}) EXPECT_FALSE(makeEstimator(wrong, config)) << wrong;
+  for (const char* wrong : {"", "KF", "robust_kf_", "robust_kf_hubert", "robust", "kf "})
+    EXPECT_FALSE(makeEstimator(wrong, config)) << wrong;
 }
 
 /// The worst position error over a stretch of time.
@@ -146,7 +148,8 @@ TEST(Scenario, GnssMovesForGoodAndIsBelievedInTheEnd) {
     auto output = testing::feed(name, testing::configFor(scenario), run.measurements);
     for (auto& estimate : output.estimates)
       if (secondsBetween(Simulator::kStart, estimate.stamp) >= 100) estimate.belief.mean(kEast) -= 500;
-    EXPECT_LT(worstError(output, run, name == "kf" ? 195 : 130, 200), 15) << name;  // the plain filter's current takes a while
+    EXPECT_LT(worstError(output, run, name == "kf" ? 195 : 130, 200), 15)
+        << name;  // the plain filter's current takes a while
   }
 }
 
@@ -159,7 +162,8 @@ TEST(Scenario, GnssIsLostForAMinuteAndTheEstimateKnowsIt) {
     const double t = secondsBetween(Simulator::kStart, z.stamp);
     return z.sensor == Sensor::Position && t >= 100 && t < 160;
   };
-  run.measurements.erase(std::remove_if(run.measurements.begin(), run.measurements.end(), lost), run.measurements.end());
+  run.measurements.erase(std::remove_if(run.measurements.begin(), run.measurements.end(), lost),
+                         run.measurements.end());
   // THEN the error grows no faster than the reported uncertainty, and the next fixes mend it
   for (const auto& name : testing::filterNames()) {
     const auto output = testing::feed(name, testing::configFor(scenario), run.measurements);

@@ -40,14 +40,16 @@ class WavySurvey {
     result.along_sigma = 1e-4;
     result.sight_sigma = 5e-6;
     const Eigen::Quaterniond half = pose(time).q_local_body.slerp(0.5, pose(time + 1 / kPingRate).q_local_body);
-    const Eigen::Vector3d moved_body = half.conjugate() * (phaseCentreOf(time + 1 / kPingRate, result.delay) - phaseCentreOf(time, result.delay));
+    const Eigen::Vector3d moved_body =
+        half.conjugate() * (phaseCentreOf(time + 1 / kPingRate, result.delay) - phaseCentreOf(time, result.delay));
     result.along = moved_body.x();
     result.sight = moved_body.dot(result.sight_body);
     return result;
   }
 
   Aiding reading(double time, const imaging::Trajectory& belief) const {
-    return dpcReading(found(time), arraySonar(), belief, stampFromSeconds(time), stampFromSeconds(time + 1 / kPingRate));
+    return dpcReading(found(time), arraySonar(), belief, stampFromSeconds(time),
+                      stampFromSeconds(time + 1 / kPingRate));
   }
 
   /// Of the phase centre, forward and along the sight.
@@ -116,7 +118,9 @@ TEST(ImagingBridge, ReadsTheSameFromAWrongBelief) {
   const WavySurvey survey;
   const imaging::Trajectory wrong = survey.wrongBelief();
   for (double time = 1; time < 9; time += 0.37)
-    EXPECT_LT((survey.reading(time, wrong).array.velocity - survey.reading(time, survey.believed).array.velocity).norm(), 1e-4);
+    EXPECT_LT(
+        (survey.reading(time, wrong).array.velocity - survey.reading(time, survey.believed).array.velocity).norm(),
+        1e-4);
 }
 
 TEST(ImagingBridge, ReadsWhatTheSimulatorReads) {
@@ -132,7 +136,8 @@ TEST(ImagingBridge, ReadsWhatTheSimulatorReads) {
     if (simulated.reading.sensor != Sensor::Dpc || middle < 1 || middle > 9) continue;
     const Aiding reading = survey.reading(middle - 0.5 / kPingRate - 0.02, survey.believed);
     EXPECT_LT((reading.array.sight_body - simulated.reading.array.sight_body).norm(), 1e-12);
-    EXPECT_LT((reading.array.velocity - simulated.reading.array.velocity).norm(), 3e-4);  // the simulator's is the mean over T, v'' T^2 / 24 away
+    EXPECT_LT((reading.array.velocity - simulated.reading.array.velocity).norm(),
+              3e-4);  // the simulator's is the mean over T, v'' T^2 / 24 away
     ++compared;
   }
   EXPECT_EQ(compared, 64);

@@ -12,8 +12,9 @@ namespace {
 using namespace testing;
 
 bool same(const Solution& a, const Solution& b) {
-  return a.stamp == b.stamp && a.state.latitude == b.state.latitude && a.state.longitude == b.state.longitude && a.state.height == b.state.height &&
-         a.state.velocity_nav == b.state.velocity_nav && a.state.q_nav_body.coeffs() == b.state.q_nav_body.coeffs() && *a.covariance == *b.covariance;
+  return a.stamp == b.stamp && a.state.latitude == b.state.latitude && a.state.longitude == b.state.longitude &&
+         a.state.height == b.state.height && a.state.velocity_nav == b.state.velocity_nav &&
+         a.state.q_nav_body.coeffs() == b.state.q_nav_body.coeffs() && *a.covariance == *b.covariance;
 }
 
 void feed(LiveSession& live, const std::vector<Reading>& stream) {
@@ -33,19 +34,22 @@ TEST(InsHead, ThePresentIsWhatSettlesLater) {
   std::vector<Solution> present;
   for (const auto& reading : stream) {
     live.process(reading);
-    if (isInertial(reading) && live.current(0) && live.current(0)->stamp == stampOf(reading)) present.push_back(*live.current(0));
+    if (isInertial(reading) && live.current(0) && live.current(0)->stamp == stampOf(reading))
+      present.push_back(*live.current(0));
   }
   live.finish();
   const auto& solutions = live.session().lanes()[0].output.solutions;
   ASSERT_GT(present.size(), 3600u);
   ASSERT_LT(present.size(), solutions.size());  // it is there a lag after the start
-  for (std::size_t i = 1; i <= present.size(); ++i) ASSERT_TRUE(same(present[present.size() - i], solutions[solutions.size() - i])) << i;
+  for (std::size_t i = 1; i <= present.size(); ++i)
+    ASSERT_TRUE(same(present[present.size() - i], solutions[solutions.size() - i])) << i;
 }
 
 TEST(InsHead, AnyOrderInsideTheLagGivesTheSamePresent) {
   const Scenario scenario = surveyOf(40);
   const auto stream = until(streamOf(scenario, 2), 37.43);
-  LiveSession sorted(optionsOf(scenario), {"robust_ckf27"}, makeEstimator), late(optionsOf(scenario), {"robust_ckf27"}, makeEstimator);
+  LiveSession sorted(optionsOf(scenario), {"robust_ckf27"}, makeEstimator),
+      late(optionsOf(scenario), {"robust_ckf27"}, makeEstimator);
   feed(sorted, stream);
   feed(late, shuffled(stream, 1.9));
   ASSERT_TRUE(sorted.current(0) && late.current(0));
@@ -54,7 +58,8 @@ TEST(InsHead, AnyOrderInsideTheLagGivesTheSamePresent) {
 }
 
 TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
-  // GIVEN a run in waves, WHEN states are asked for between the stamps of the inertial unit, THEN their errors are those at the stamps around them.
+  // GIVEN a run in waves, WHEN states are asked for between the stamps of the inertial unit, THEN their errors are
+  // those at the stamps around them.
   Scenario scenario = surveyOf(40);
   LiveSession live(optionsOf(scenario), {"ckf27"}, makeEstimator);
   feed(live, streamOf(scenario, 1));
@@ -72,7 +77,8 @@ TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
       const auto between = error(time + part);
       const double share = part / 0.01;  // the errors themselves change slowly
       worst_position = std::max(worst_position, (between.first - at.first - share * (after.first - at.first)).norm());
-      worst_attitude = std::max(worst_attitude, (between.second - at.second - share * (after.second - at.second)).norm());
+      worst_attitude =
+          std::max(worst_attitude, (between.second - at.second - share * (after.second - at.second)).norm());
     }
   }
   std::cout << "between stamps: " << 1e6 * worst_position << " um, " << 1e6 * worst_attitude << " urad\n";

@@ -28,7 +28,8 @@ void run(Navigator<Filter>& navigator, const Recording& recording, const After& 
 
 /// RMS of the horizontal position error after the first 120 s [m].
 template <class Filter>
-double positionError(const Filter& filter, const Scenario& scenario, std::uint64_t seed, const OptionsOf<Filter>& options = {}) {
+double positionError(const Filter& filter, const Scenario& scenario, std::uint64_t seed,
+                     const OptionsOf<Filter>& options = {}) {
   const Trajectory trajectory(scenario.track, scenario.duration);
   const Recording recording = simulate(scenario, trajectory, seed);
   Navigator<Filter> navigator(filter, scenario.parameters, recording.start, 0, options);
@@ -54,13 +55,16 @@ Scenario shortScenario(double duration) {
 
 /// A run to its end, without scoring.
 template <class Filter>
-Navigator<Filter> finished(const Filter& filter, const Scenario& scenario, const Recording& recording, const OptionsOf<Filter>& options = {}) {
+Navigator<Filter> finished(const Filter& filter, const Scenario& scenario, const Recording& recording,
+                           const OptionsOf<Filter>& options = {}) {
   Navigator<Filter> navigator(filter, scenario.parameters, recording.start, 0, options);
   run(navigator, recording, [](const auto&) {});
   return navigator;
 }
 
-Recording recordingOf(const Scenario& scenario, std::uint64_t seed) { return simulate(scenario, Trajectory(scenario.track, scenario.duration), seed); }
+Recording recordingOf(const Scenario& scenario, std::uint64_t seed) {
+  return simulate(scenario, Trajectory(scenario.track, scenario.duration), seed);
+}
 
 TEST(InsNavigator, FusionIsBetterThanItsSensors) {
   // GIVEN fixes that are 2.9 m off, and an INS that drifts by 100 m in ten minutes
@@ -96,11 +100,13 @@ TEST(InsNavigator, FeedbackAndOpenLoopAgreeWhileErrorsAreSmall) {
   open.feedback = false;
   const auto closed = finished(KalmanFilter<kStates>(), scenario, recording);
   const auto closed_state = closed.fused();
-  const double heading_sigma = std::sqrt(closed.belief().covariance(kAttitude + 2, kAttitude + 2)) * closed.model().unit()(kAttitude);
+  const double heading_sigma =
+      std::sqrt(closed.belief().covariance(kAttitude + 2, kAttitude + 2)) * closed.model().unit()(kAttitude);
   const auto open_state = finished(KalmanFilter<kStates>(), scenario, recording, open).fused();
   EXPECT_LT(displacement(closed_state, open_state).norm(), 0.02);
   EXPECT_LT((closed_state.velocity_nav - open_state.velocity_nav).norm(), 1e-3);
-  EXPECT_LT(attitudeError(closed_state.q_nav_body, open_state.q_nav_body).norm(), 0.02 * heading_sigma) << "second order in an error of a milliradian";
+  EXPECT_LT(attitudeError(closed_state.q_nav_body, open_state.q_nav_body).norm(), 0.02 * heading_sigma)
+      << "second order in an error of a milliradian";
 }
 
 TEST(InsNavigator, ErrorsAreAsLargeAsItsCovarianceSays) {
@@ -179,7 +185,8 @@ TEST(InsNavigator, ReportsLateReadings) {
   const auto before = navigator.fused();
   Aiding late = recording.aiding.front().reading;
   navigator.add(late);
-  navigator.add(ImuReading{recording.imu.back().stamp + 1, recording.imu.back().rate_body, recording.imu.back().force_body});
+  navigator.add(
+      ImuReading{recording.imu.back().stamp + 1, recording.imu.back().rate_body, recording.imu.back().force_body});
   ASSERT_EQ(navigator.audits().size(), 1u);
   EXPECT_EQ(navigator.audits().front().verdict, Verdict::Stale);
   EXPECT_LT(displacement(before, navigator.fused()).norm(), 1e-6);
@@ -191,7 +198,9 @@ TEST(InsNavigator, LivesThroughAGapOfTheInertialUnit) {
   const Trajectory trajectory(scenario.track, scenario.duration);
   Recording recording = simulate(scenario, trajectory, 2);
   recording.imu.erase(std::remove_if(recording.imu.begin(), recording.imu.end(),
-                                     [](const ImuReading& r) { return r.stamp > stampFromSeconds(60) && r.stamp < stampFromSeconds(62); }),
+                                     [](const ImuReading& r) {
+                                       return r.stamp > stampFromSeconds(60) && r.stamp < stampFromSeconds(62);
+                                     }),
                       recording.imu.end());
   Navigator<KalmanFilter<kStates>> navigator({}, scenario.parameters, recording.start, 0, {});
   double doubt_before = 0, doubt_after = 0;
@@ -226,7 +235,8 @@ Vector<2> velocityErrors(const Scenario& scenario, std::uint64_t seed) {
     const double time = secondsBetween(0, n.stamp());
     if (time < 60) return;
     const NavigationState truth = trajectory.at(time).state, fused = n.fused();
-    const Vector<3> error_body = fused.q_nav_body.conjugate() * fused.velocity_nav - truth.q_nav_body.conjugate() * truth.velocity_nav;
+    const Vector<3> error_body =
+        fused.q_nav_body.conjugate() * fused.velocity_nav - truth.q_nav_body.conjugate() * truth.velocity_nav;
     squares += Vector<2>(error_body.y(), error_body.dot(scenario.dpc.sightBody())).cwiseAbs2();
     ++count;
   });
@@ -235,7 +245,8 @@ Vector<2> velocityErrors(const Scenario& scenario, std::uint64_t seed) {
 
 TEST(InsNavigator, MicronavigationSharpensTheVelocityOnItsAxes) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const Vector<2> without = velocityErrors(shortScenario(180), seed), with = velocityErrors(withMicronavigation(shortScenario(180)), seed);
+    const Vector<2> without = velocityErrors(shortScenario(180), seed),
+                    with = velocityErrors(withMicronavigation(shortScenario(180)), seed);
     EXPECT_LT(with.x(), 0.5 * without.x());
     EXPECT_LT(with.y(), 0.5 * without.y());
   }
@@ -254,7 +265,8 @@ TEST(InsSimulator, MicronavigationIsTheMeanVelocityOfTheArrayAndChangesNoOtherRe
       continue;
     }
     const TruthSample truth = trajectory.at(secondsBetween(0, one.reading.stamp));
-    const auto z = ErrorModel(scenario.parameters, truth.state).dpc(truth.state, truth.rateBody(), one.reading.array, Errors::Zero());
+    const auto z = ErrorModel(scenario.parameters, truth.state)
+                       .dpc(truth.state, truth.rateBody(), one.reading.array, Errors::Zero());
     squares += z.innovation.cwiseAbs2() / 160;
   }
   EXPECT_EQ(recording.aiding.size() - others.size(), 160u);
@@ -275,13 +287,15 @@ TEST(InsSimulator, SensorsHaveTheirOwnStreamsAndOutages) {
   scenario.sensor(Sensor::Gps).outages = {{5, 10}};
   const auto under_water = recordingOf(scenario, 7).aiding;
   const auto count = [](const auto& all, Sensor sensor) {
-    return std::count_if(all.begin(), all.end(), [&](const LabelledAiding& one) { return one.reading.sensor == sensor; });
+    return std::count_if(all.begin(), all.end(),
+                         [&](const LabelledAiding& one) { return one.reading.sensor == sensor; });
   };
   EXPECT_EQ(count(whole, Sensor::Gps), 20);
   EXPECT_EQ(count(under_water, Sensor::Gps), 14);
   EXPECT_EQ(count(under_water, Sensor::Dvl), count(whole, Sensor::Dvl));
   EXPECT_EQ(whole.back().reading.stamp, under_water.back().reading.stamp);
-  EXPECT_EQ(whole.back().reading.fix.height, under_water.back().reading.fix.height) << "an outage changes no other reading";
+  EXPECT_EQ(whole.back().reading.fix.height, under_water.back().reading.fix.height)
+      << "an outage changes no other reading";
 }
 
 }  // namespace

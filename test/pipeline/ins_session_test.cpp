@@ -15,8 +15,8 @@ using namespace testing;
 using Lack = Alignment::Lack;
 
 bool operator==(const NavigationState& a, const NavigationState& b) {
-  return a.latitude == b.latitude && a.longitude == b.longitude && a.height == b.height && a.velocity_nav == b.velocity_nav &&
-         a.q_nav_body.coeffs() == b.q_nav_body.coeffs();
+  return a.latitude == b.latitude && a.longitude == b.longitude && a.height == b.height &&
+         a.velocity_nav == b.velocity_nav && a.q_nav_body.coeffs() == b.q_nav_body.coeffs();
 }
 
 /// Bit for bit.
@@ -62,14 +62,17 @@ TEST(InsSession, StartsAtTheFirstFixAfterAttitudeAndVelocity) {
 }
 
 TEST(InsSession, TheStartIsConsistentOverManyRuns) {
-  // GIVEN 60 runs that start from their own fixes, WHEN a minute has passed, THEN the errors are what the covariance says.
+  // GIVEN 60 runs that start from their own fixes, WHEN a minute has passed, THEN the errors are what the covariance
+  // says.
   const Scenario scenario = surveyOf(60);
   double position = 0, velocity = 0, attitude = 0;
   constexpr int kRuns = 60;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     const Solution last = settled(streamOf(scenario, seed), optionsOf(scenario)).solutions.back();
     const TruthSample truth = Trajectory(scenario.track, scenario.duration).at(secondsBetween(kEpoch, last.stamp));
-    const auto nees = [&](const Vector<3>& error, int first) { return error.dot(last.covariance->block<3, 3>(first, first).llt().solve(error)) / kRuns; };
+    const auto nees = [&](const Vector<3>& error, int first) {
+      return error.dot(last.covariance->block<3, 3>(first, first).llt().solve(error)) / kRuns;
+    };
     position += nees(displacement(truth.state, last.state), kPosition);
     velocity += nees(last.state.velocity_nav - truth.state.velocity_nav, kVelocity);
     attitude += nees(attitudeError(last.state.q_nav_body, truth.state.q_nav_body), kAttitude);
@@ -95,7 +98,8 @@ TEST(InsSession, SaysWhatTheStartLacks) {
   patient.alignment.velocity_wait = 60;
   EXPECT_EQ(lackOf(without(stream, [](const Reading& r) { return isOf(r, Sensor::Dvl); }), patient), Lack::Velocity);
   const auto early = [](const Reading& r) {
-    return isInertial(r) ? stampOf(r) < kEpoch + 5 * kNanosecondsPerSecond : stampOf(r) > kEpoch + 4 * kNanosecondsPerSecond;
+    return isInertial(r) ? stampOf(r) < kEpoch + 5 * kNanosecondsPerSecond
+                         : stampOf(r) > kEpoch + 4 * kNanosecondsPerSecond;
   };
   EXPECT_EQ(lackOf(without(stream, early), options), Lack::FixAfterAttitude);
 }
@@ -112,7 +116,8 @@ Start startOf(const std::vector<Reading>& stream, const SessionOptions& options)
 }
 
 TEST(InsSession, AVelocityOfGnssStartsItAsSurelyAsItSays) {
-  // GIVEN GNSS that knows the velocity at the moment of its fix, WHEN there is a DVL or none, THEN the start has GNSS's, in time order after all
+  // GIVEN GNSS that knows the velocity at the moment of its fix, WHEN there is a DVL or none, THEN the start has
+  // GNSS's, in time order after all
   const Scenario scenario = surveyOf(3);
   const GroundVelocity velocity{kEpoch + kNanosecondsPerSecond, Vector<3>(1, 2, 3), 0.07};
   for (const bool with_dvl : {true, false}) {
@@ -140,7 +145,8 @@ TEST(InsSession, AFixThatOnlyStartsItIsAsSureAsItsLeverArmLets) {
   const Parameters& p = scenario.parameters;
   EXPECT_LT((heading(1e-6) - p.gps_white).norm(), 0.01);
   const double across = p.gps_lever_body.head<2>().norm();
-  EXPECT_NEAR(heading(0.5).x(), std::hypot(p.gps_white.x(), 0.5 * across), 0.1) << "30 degrees of heading turn the lever arm, which also tilts";
+  EXPECT_NEAR(heading(0.5).x(), std::hypot(p.gps_white.x(), 0.5 * across), 0.1)
+      << "30 degrees of heading turn the lever arm, which also tilts";
   EXPECT_NEAR(heading(0.5).z(), p.gps_white.z(), 0.01);
 }
 
@@ -156,7 +162,9 @@ TEST(InsSession, WithoutBottomLockItStartsAtRestAndFindsItsVelocity) {
 
 TEST(InsSession, FixesBeforeTheFirstAttitudeWait) {
   const Scenario scenario = surveyOf(20);
-  const auto stream = without(streamOf(scenario, 1), [](const Reading& r) { return isInertial(r) && stampOf(r) < kEpoch + 7 * kNanosecondsPerSecond / 2; });
+  const auto stream = without(streamOf(scenario, 1), [](const Reading& r) {
+    return isInertial(r) && stampOf(r) < kEpoch + 7 * kNanosecondsPerSecond / 2;
+  });
   EXPECT_EQ(settled(stream, optionsOf(scenario)).solutions.front().stamp, kEpoch + 4 * kNanosecondsPerSecond);
 }
 
@@ -165,19 +173,24 @@ TEST(InsSession, AnyOrderInsideTheLagGivesTheSameBits) {
   const auto stream = streamOf(scenario, 3);
   const Output sorted = settled(stream, optionsOf(scenario, 2));
   for (const double delay : {0.3, 1.9}) expectSame(sorted, settled(shuffled(stream, delay), optionsOf(scenario, 2)));
-  EXPECT_EQ(std::count_if(sorted.audits.begin(), sorted.audits.end(), [](const Audit& a) { return a.verdict == Verdict::Accepted; }), 59 * 7 + 3);
+  EXPECT_EQ(std::count_if(sorted.audits.begin(), sorted.audits.end(),
+                          [](const Audit& a) { return a.verdict == Verdict::Accepted; }),
+            59 * 7 + 3);
 }
 
 TEST(InsSession, WhatIsLaterThanTheLagIsRefusedAndCounted) {
   const Scenario scenario = surveyOf(40);
   auto stream = streamOf(scenario, 3);
-  const auto fix =
-      std::find_if(stream.begin(), stream.end(), [](const Reading& r) { return isOf(r, Sensor::Gps) && stampOf(r) > kEpoch + 20 * kNanosecondsPerSecond; });
+  const auto fix = std::find_if(stream.begin(), stream.end(), [](const Reading& r) {
+    return isOf(r, Sensor::Gps) && stampOf(r) > kEpoch + 20 * kNanosecondsPerSecond;
+  });
   const Reading late = *fix;
   stream.insert(fix + 350, late);  // more than three seconds later
-  stream.erase(std::find_if(stream.begin(), stream.end(), [&](const Reading& r) { return placeOf(r) == placeOf(late); }));
+  stream.erase(
+      std::find_if(stream.begin(), stream.end(), [&](const Reading& r) { return placeOf(r) == placeOf(late); }));
   const Output output = settled(stream, optionsOf(scenario, 2));
-  const auto stale = std::find_if(output.audits.begin(), output.audits.end(), [](const Audit& a) { return std::string(a.reason) == "older than the lag"; });
+  const auto stale = std::find_if(output.audits.begin(), output.audits.end(),
+                                  [](const Audit& a) { return std::string(a.reason) == "older than the lag"; });
   ASSERT_NE(stale, output.audits.end());
   EXPECT_EQ(stale->verdict, Verdict::Stale);
   EXPECT_EQ(stale->sensor, Sensor::Gps);
@@ -232,7 +245,8 @@ TEST(InsSession, OneWrongStampChangesLittleAndAClockThatIsSetStartsAnew) {
   const Output clean = settled(stream, optionsOf(scenario));
   auto one = stream;
   for (auto& reading : one)
-    if (auto* inertial = std::get_if<InertialReading>(&reading); inertial && inertial->imu.stamp == kEpoch + 30 * kNanosecondsPerSecond)
+    if (auto* inertial = std::get_if<InertialReading>(&reading);
+        inertial && inertial->imu.stamp == kEpoch + 30 * kNanosecondsPerSecond)
       inertial->imu.stamp += 3600 * kNanosecondsPerSecond;
   const Output with_one = settled(one, optionsOf(scenario));
   EXPECT_EQ(with_one.solutions.size(), clean.solutions.size() - 1);
@@ -253,7 +267,8 @@ TEST(InsSession, OneWrongStampChangesLittleAndAClockThatIsSetStartsAnew) {
     }
     const Output output = settled(set, optionsOf(scenario));
     const auto first = std::find_if(output.solutions.begin(), output.solutions.end(), [&](const Solution& s) {
-      return std::abs(s.stamp - kEpoch) > jump / 2 + std::abs(jump) / 4 && std::abs(s.stamp - kEpoch) > 1000 * kNanosecondsPerSecond;
+      return std::abs(s.stamp - kEpoch) > jump / 2 + std::abs(jump) / 4 &&
+             std::abs(s.stamp - kEpoch) > 1000 * kNanosecondsPerSecond;
     });
     ASSERT_NE(first, output.solutions.end());
     EXPECT_LT(secondsBetween(kEpoch + 30 * kNanosecondsPerSecond + jump, first->stamp), 5);

@@ -26,7 +26,8 @@ std::vector<Reading> valuesOf(const Map& map) {
   return values;
 }
 
-/// A simulated run as readings in the order of their stamps, with the attitude that `simulate` writes: the true one with the errors of the start.
+/// A simulated run as readings in the order of their stamps, with the attitude that `simulate` writes: the true one
+/// with the errors of the start.
 inline std::vector<Reading> streamOf(const Scenario& scenario, std::uint64_t seed) {
   const Trajectory trajectory(scenario.track, scenario.duration);
   const Recording recording = simulate(scenario, trajectory, seed);
@@ -36,7 +37,8 @@ inline std::vector<Reading> streamOf(const Scenario& scenario, std::uint64_t see
   const auto add = [&](const Reading& reading) { stream.emplace(placeOf(reading), reading); };
   for (std::size_t k = 1; k < recording.imu.size(); ++k) {
     InertialReading reading{recording.imu[k], {}};
-    reading.attitude = MeasuredAttitude{error * trajectory.at(secondsBetween(0, reading.imu.stamp)).state.q_nav_body, p.start_tilt, p.start_heading};
+    reading.attitude = MeasuredAttitude{error * trajectory.at(secondsBetween(0, reading.imu.stamp)).state.q_nav_body,
+                                        p.start_tilt, p.start_heading};
     reading.imu.stamp += kEpoch;
     add(reading);
   }
@@ -70,7 +72,8 @@ std::vector<Reading> without(std::vector<Reading> stream, const Unwanted& unwant
 }
 
 /// The settled output of one estimator over a stream.
-inline Output settled(const std::vector<Reading>& stream, const SessionOptions& options, const std::string& name = "ckf27") {
+inline Output settled(const std::vector<Reading>& stream, const SessionOptions& options,
+                      const std::string& name = "ckf27") {
   Session session(options, {name}, makeEstimator);
   for (const auto& reading : stream) session.process(reading);
   session.finish();

@@ -13,7 +13,8 @@ namespace sas_motion::sins {
 namespace {
 
 Scenario scenarioOf(const std::string& name, double duration) {
-  auto scenario = Scenario::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/scenarios/sins_dvl/" + name + ".yaml");
+  auto scenario =
+      Scenario::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/scenarios/sins_dvl/" + name + ".yaml");
   scenario.duration = duration;
   return scenario;
 }
@@ -24,7 +25,8 @@ struct Outcome {
   Vector<3> position_error, attitude_error;  // at the end
 };
 
-Outcome run(const Scenario& scenario, const ins::Recording& recording, const std::string& name, int particles, int threads = 1, bool vectorised = true) {
+Outcome run(const Scenario& scenario, const ins::Recording& recording, const std::string& name, int particles,
+            int threads = 1, bool vectorised = true) {
   Config config;
   config.parameters = scenario.parameters;
   config.particles.particles = particles;
@@ -35,10 +37,12 @@ Outcome run(const Scenario& scenario, const ins::Recording& recording, const std
   ins::Output output;
   auto next = recording.aiding.begin();
   for (const auto& reading : recording.imu) {
-    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator->process(next->reading, output);
+    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next)
+      estimator->process(next->reading, output);
     estimator->process(reading, output);
   }
-  const NavigationState truth = ins::Trajectory(scenario.track, scenario.duration).at(scenario.duration).state, &end = output.solutions.back().state;
+  const NavigationState truth = ins::Trajectory(scenario.track, scenario.duration).at(scenario.duration).state,
+                        &end = output.solutions.back().state;
   return {output.solutions, output.audits, displacement(truth, end), attitudeError(end.q_nav_body, truth.q_nav_body)};
 }
 
@@ -85,7 +89,8 @@ TEST(SinsEstimator, GivesTheSameBitsOnAnyNumberOfThreads) {
 TEST(SinsEstimator, GivesTheSameByVectorInstructionsAndWithout) {
   const Scenario scenario = scenarioOf("large_angle", 20);
   const auto recording = recordingOf(scenario, 5);
-  const auto blocks = run(scenario, recording, "ss_srupf", 100), each = run(scenario, recording, "ss_srupf", 100, 1, false);
+  const auto blocks = run(scenario, recording, "ss_srupf", 100),
+             each = run(scenario, recording, "ss_srupf", 100, 1, false);
   EXPECT_LT((blocks.position_error - each.position_error).norm(), 1e-6);
   EXPECT_LT((blocks.attitude_error - each.attitude_error).norm(), 1e-9);
   EXPECT_NEAR(blocks.audits.back().effective_size, each.audits.back().effective_size, 1e-3);
@@ -135,30 +140,38 @@ double horizontalNees(const Outcome& outcome) {
 }
 
 TEST(SinsEstimator, BridgesAGapOfTheUnitAndSaysHowUnsureItIsThen) {
-  // GIVEN a gap of two seconds in which the body yaws and pitches, WHEN the DVL goes on, THEN nothing runs away, and the covariance has grown with the gap
+  // GIVEN a gap of two seconds in which the body yaws and pitches, WHEN the DVL goes on, THEN nothing runs away, and
+  // the covariance has grown with the gap
   const Scenario scenario = scenarioOf("accuracy", 90);
   for (const std::uint64_t seed : {1, 2, 3}) {
     auto recording = recordingOf(scenario, seed);
     const auto whole = run(scenario, recording, "ss_srupf", 100);
-    const auto in_gap = [](const ImuReading& reading) { return reading.stamp > stampFromSeconds(60) && reading.stamp < stampFromSeconds(62); };
+    const auto in_gap = [](const ImuReading& reading) {
+      return reading.stamp > stampFromSeconds(60) && reading.stamp < stampFromSeconds(62);
+    };
     recording.imu.erase(std::remove_if(recording.imu.begin(), recording.imu.end(), in_gap), recording.imu.end());
     const auto gappy = run(scenario, recording, "ss_srupf", 100);
     ASSERT_EQ(gappy.solutions.size(), recording.imu.size());
-    EXPECT_GT(gappy.solutions.back().covariance->diagonal().segment<2>(3).sum(), 2 * whole.solutions.back().covariance->diagonal().segment<2>(3).sum());
+    EXPECT_GT(gappy.solutions.back().covariance->diagonal().segment<2>(3).sum(),
+              2 * whole.solutions.back().covariance->diagonal().segment<2>(3).sum());
     EXPECT_LT(horizontalNees(gappy), chiSquaredQuantile(0.999, 2)) << "seed " << seed;
-    EXPECT_LT(std::abs(gappy.attitude_error.z()), 3 * std::sqrt((*gappy.solutions.back().covariance)(8, 8))) << "seed " << seed;
+    EXPECT_LT(std::abs(gappy.attitude_error.z()), 3 * std::sqrt((*gappy.solutions.back().covariance)(8, 8)))
+        << "seed " << seed;
   }
 }
 
 TEST(SinsEstimator, LivesThroughMinutesWithoutTheDvl) {
-  // GIVEN a start 5 degrees off and no bottom lock from 60 s to 240 s, WHEN it comes back, THEN the error is what the covariance said, and the velocity is back
+  // GIVEN a start 5 degrees off and no bottom lock from 60 s to 240 s, WHEN it comes back, THEN the error is what the
+  // covariance said, and the velocity is back
   const Scenario scenario = scenarioOf("large_angle", 260);
   for (const std::uint64_t seed : {1, 2}) {
     auto recording = recordingOf(scenario, seed);
     const auto lost = [](const ins::LabelledAiding& aiding) {
-      return aiding.reading.sensor == ins::Sensor::Dvl && aiding.reading.stamp > stampFromSeconds(60) && aiding.reading.stamp < stampFromSeconds(240);
+      return aiding.reading.sensor == ins::Sensor::Dvl && aiding.reading.stamp > stampFromSeconds(60) &&
+             aiding.reading.stamp < stampFromSeconds(240);
     };
-    recording.aiding.erase(std::remove_if(recording.aiding.begin(), recording.aiding.end(), lost), recording.aiding.end());
+    recording.aiding.erase(std::remove_if(recording.aiding.begin(), recording.aiding.end(), lost),
+                           recording.aiding.end());
     const auto outcome = run(scenario, recording, "ss_srupf", 200);
     EXPECT_LT(horizontalNees(outcome), chiSquaredQuantile(0.999, 2)) << "seed " << seed;
     const NavigationState truth = ins::Trajectory(scenario.track, scenario.duration).at(scenario.duration).state;
@@ -173,7 +186,8 @@ TEST(SinsEstimator, AReadingThatIsNoNumberIsRefusedAndHarmsNothing) {
   for (const std::string name : {"pf", "upf", "ss_srupf", "ss_srukf"}) {
     auto spoilt = recording;
     for (auto& aiding : spoilt.aiding)
-      if (aiding.reading.sensor == ins::Sensor::Dvl && aiding.reading.stamp == stampFromSeconds(5)) aiding.reading.velocity_body.x() = std::nan("");
+      if (aiding.reading.sensor == ins::Sensor::Dvl && aiding.reading.stamp == stampFromSeconds(5))
+        aiding.reading.velocity_body.x() = std::nan("");
     const auto outcome = run(scenario, spoilt, name, 50);
     std::size_t invalid = 0;
     for (const auto& audit : outcome.audits) invalid += audit.verdict == Verdict::Invalid;
@@ -195,7 +209,8 @@ TEST(SinsEstimator, ACopyGoesItsOwnWayAndLeavesTheOther) {
     ins::Output output, copied;
     const auto feed = [&](ins::Estimator& one, double from, double to, ins::Output& into) {
       for (const auto& aiding : recording.aiding)
-        if (aiding.reading.stamp > stampFromSeconds(from) && aiding.reading.stamp <= stampFromSeconds(to)) one.process(aiding.reading, into);
+        if (aiding.reading.stamp > stampFromSeconds(from) && aiding.reading.stamp <= stampFromSeconds(to))
+          one.process(aiding.reading, into);
       for (const auto& reading : recording.imu)
         if (reading.stamp > stampFromSeconds(from) && reading.stamp <= stampFromSeconds(to)) one.process(reading, into);
     };
@@ -211,7 +226,8 @@ TEST(SinsEstimator, ACopyGoesItsOwnWayAndLeavesTheOther) {
 }
 
 TEST(SinsEstimator, LeverArmsOfReadingsAreTakenOut) {
-  // GIVEN a DVL 3 m ahead of the INS and a gauge below it, WHEN readings say so, THEN the solution is as good as without, and else it is worse
+  // GIVEN a DVL 3 m ahead of the INS and a gauge below it, WHEN readings say so, THEN the solution is as good as
+  // without, and else it is worse
   Scenario scenario = scenarioOf("aligned", 60);
   scenario.parameters.dvl_lever_body = {0.5, 3, -0.5};
   scenario.parameters.depth_lever_body = {0, 2, -1};
@@ -220,9 +236,11 @@ TEST(SinsEstimator, LeverArmsOfReadingsAreTakenOut) {
   unaware.parameters.dvl_lever_body = unaware.parameters.depth_lever_body = Vector<3>::Zero();
   auto told = recording;
   for (auto& aiding : told.aiding) {
-    aiding.reading.lever_body = aiding.reading.sensor == ins::Sensor::Dvl ? scenario.parameters.dvl_lever_body : scenario.parameters.depth_lever_body;
+    aiding.reading.lever_body = aiding.reading.sensor == ins::Sensor::Dvl ? scenario.parameters.dvl_lever_body
+                                                                          : scenario.parameters.depth_lever_body;
   }
-  const auto known = run(scenario, recording, "ss_srukf", 1), by_reading = run(unaware, told, "ss_srukf", 1), blind = run(unaware, recording, "ss_srukf", 1);
+  const auto known = run(scenario, recording, "ss_srukf", 1), by_reading = run(unaware, told, "ss_srukf", 1),
+             blind = run(unaware, recording, "ss_srukf", 1);
   EXPECT_LT((known.position_error - by_reading.position_error).norm(), 1e-6);
   EXPECT_GT(std::abs(blind.position_error.z()), 3 * std::abs(known.position_error.z()) + 0.5);
 }

@@ -66,19 +66,24 @@ TEST(SmootherRecorder, EveryMeasurementHasAnAuditInTimeOrder) {
   auto measurements = testing::simulate(scenario, 4).measurements;
   std::vector<Measurement> early;  // nothing to start from
   for (int i = 0; i < 3; ++i) {
-    early.push_back(*std::find_if(measurements.begin(), measurements.end(), [](const auto& z) { return z.sensor == Sensor::Speed; }));
+    early.push_back(*std::find_if(measurements.begin(), measurements.end(),
+                                  [](const auto& z) { return z.sensor == Sensor::Speed; }));
     early.back().stamp -= stampFromSeconds(60 - i);
   }
   measurements.insert(measurements.end(), early.begin(), early.end());
-  const auto twice = *std::find_if(measurements.begin() + 40, measurements.end(), [](const auto& z) { return z.sensor == Sensor::Heading; });
+  const auto twice = *std::find_if(measurements.begin() + 40, measurements.end(),
+                                   [](const auto& z) { return z.sensor == Sensor::Heading; });
   measurements.insert(measurements.end(), {twice, twice});
   auto smoother = recorder(testing::configFor(scenario));
   const auto output = testing::feed(smoother, measurements);
   EXPECT_EQ(reasons(output, Verdict::Stale), std::vector<std::string>(3, "before the first position and heading"));
   EXPECT_EQ(reasons(output, Verdict::Invalid), std::vector<std::string>(2, "duplicate stamp"));
-  const auto inputs = std::count_if(measurements.begin(), measurements.end(), [](const auto& z) { return z.sensor == Sensor::TurnRate; });
-  EXPECT_EQ(output.audits.size() + static_cast<std::size_t>(inputs), measurements.size());  // a turn rate that is used has none
-  for (std::size_t i = 1; i < output.audits.size(); ++i) ASSERT_GE(output.audits[i].stamp, output.audits[i - 1].stamp) << i;
+  const auto inputs = std::count_if(measurements.begin(), measurements.end(),
+                                    [](const auto& z) { return z.sensor == Sensor::TurnRate; });
+  EXPECT_EQ(output.audits.size() + static_cast<std::size_t>(inputs),
+            measurements.size());  // a turn rate that is used has none
+  for (std::size_t i = 1; i < output.audits.size(); ++i)
+    ASSERT_GE(output.audits[i].stamp, output.audits[i - 1].stamp) << i;
 }
 
 TEST(SmootherRecorder, WithoutASolutionEveryMeasurementIsRefused) {
@@ -92,9 +97,12 @@ TEST(SmootherRecorder, WithoutASolutionEveryMeasurementIsRefused) {
   const auto output = testing::feed(broken, measurements);
   EXPECT_TRUE(output.estimates.empty());
   EXPECT_EQ(broken.failure(), "broken");
-  EXPECT_EQ(reasons(output, Verdict::Invalid), std::vector<std::string>(measurements.size(), "the smoother found no solution"));
+  EXPECT_EQ(reasons(output, Verdict::Invalid),
+            std::vector<std::string>(measurements.size(), "the smoother found no solution"));
   auto headings = measurements;
-  headings.erase(std::remove_if(headings.begin(), headings.end(), [](const auto& z) { return z.sensor == Sensor::Position; }), headings.end());
+  headings.erase(
+      std::remove_if(headings.begin(), headings.end(), [](const auto& z) { return z.sensor == Sensor::Position; }),
+      headings.end());
   auto lost = recorder(testing::configFor(scenario));
   EXPECT_EQ(reasons(testing::feed(lost, headings), Verdict::Stale).size(), headings.size());
 }

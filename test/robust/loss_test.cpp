@@ -29,7 +29,8 @@ TEST_P(EveryLoss, TheDerivativeOfRhoIsResidualTimesWeight) {
 TEST_P(EveryLoss, ItsSlopeIsTheDerivativeOfResidualTimesWeight) {
   const double bend = loss.kind() == LossKind::Dcs ? std::sqrt(loss.tuning()) : loss.tuning();
   for (double r = -15.03; r < 15; r += 0.1) {
-    const double h = 1e-6, up = r + h, down = r - h, slope = (up * loss.weight(up) - down * loss.weight(down)) / (2 * h);
+    const double h = 1e-6, up = r + h, down = r - h,
+                 slope = (up * loss.weight(up) - down * loss.weight(down)) / (2 * h);
     if (std::abs(std::abs(r) - bend) < 2 * h) continue;
     ASSERT_NEAR(loss.slope(r), slope, 1e-6) << "r " << r;
     ASSERT_LE(loss.slope(r), 1);
@@ -114,7 +115,8 @@ TEST(Loss, AnUnknownNameIsAnsweredWithTheKnownOnes) {
     lossFromName("hubert");
     FAIL();
   } catch (const std::invalid_argument& error) {
-    for (const auto& name : lossNames()) EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    for (const auto& name : lossNames())
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("hubert"), std::string::npos);
   }
 }

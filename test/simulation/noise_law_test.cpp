@@ -7,7 +7,9 @@
 namespace sas_motion {
 namespace {
 
-NoiseLaw read(const std::string& text, NoiseUse use = NoiseUse::Sensor) { return NoiseLaw::read(YamlSection::fromText(text, "inline"), use); }
+NoiseLaw read(const std::string& text, NoiseUse use = NoiseUse::Sensor) {
+  return NoiseLaw::read(YamlSection::fromText(text, "inline"), use);
+}
 
 TEST(NoiseLaw, ReadsItselfAndSaysItsName) {
   EXPECT_EQ(read("{law: contaminated, epsilon: 0.1, K: 10}").name(), "contaminated(0.1,10)");
@@ -20,8 +22,10 @@ TEST(NoiseLaw, ReadsItselfAndSaysItsName) {
   EXPECT_EQ(read("{law: correlated, time_constant: 5, share: 0.5}").name(), "correlated(5 s,0.5)");
   EXPECT_EQ(read("{law: varying, period: 60, factor: 3}").name(), "varying(60 s,3)");
   EXPECT_EQ(read("{law: quantised, quantum: 2}").name(), "quantised(2)");
-  EXPECT_EQ(read("{law: contaminated, epsilon: 0.1, K: 10, epoch: 1}", NoiseUse::Process).name(), "contaminated(0.1,10,1 s)");
-  EXPECT_EQ(read("{law: manoeuvre, rate: 0.01, length: 5, K: 10}", NoiseUse::Process).name(), "manoeuvre(0.01/s,5 s,10)");
+  EXPECT_EQ(read("{law: contaminated, epsilon: 0.1, K: 10, epoch: 1}", NoiseUse::Process).name(),
+            "contaminated(0.1,10,1 s)");
+  EXPECT_EQ(read("{law: manoeuvre, rate: 0.01, length: 5, K: 10}", NoiseUse::Process).name(),
+            "manoeuvre(0.01/s,5 s,10)");
   EXPECT_EQ(NoiseLaw().name(), "gaussian");
 }
 
@@ -36,8 +40,10 @@ TEST(NoiseLaw, RefusesWhatItDoesNotKnowOrCannotBe) {
 }
 
 TEST(NoiseMix, IsALawOrAListOfLawsOrNothing) {
-  auto yaml =
-      YamlSection::fromText("{one: {law: student_t, nu: 3}, two: [{law: contaminated, epsilon: 0.1, K: 10}, {law: dropout, probability: 0.1}]}", "inline");
+  auto yaml = YamlSection::fromText(
+      "{one: {law: student_t, nu: 3}, two: [{law: contaminated, epsilon: 0.1, K: 10}, {law: dropout, probability: "
+      "0.1}]}",
+      "inline");
   EXPECT_EQ(NoiseMix::read(yaml, "one").name(), "student_t(3)");
   EXPECT_EQ(NoiseMix::read(yaml, "two").name(), "contaminated(0.1,10) + dropout(0.1)");
   EXPECT_EQ(NoiseMix::read(yaml, "none").name(), "gaussian");

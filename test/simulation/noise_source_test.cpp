@@ -98,15 +98,18 @@ const auto square = [](const NoiseSample& s) { return s.value * s.value; };
 TEST(NoiseSource, StudentsTHasItsVarianceAndTheToldVarianceWhitensIt) {
   const auto samples = draws(law(NoiseLaw::Kind::StudentT, {{&NoiseLaw::nu, 5}}));
   EXPECT_NEAR(average(samples, square), 5.0 / 3, 0.05);
-  EXPECT_NEAR(average(samples, [](const auto& s) { return s.value * s.value / s.variance; }), 1, 5 * std::sqrt(2.0 / kDraws));
+  EXPECT_NEAR(average(samples, [](const auto& s) { return s.value * s.value / s.variance; }), 1,
+              5 * std::sqrt(2.0 / kDraws));
   EXPECT_NEAR(average(samples, [](const auto& s) { return s.variance; }), 5.0 / 3, 0.05);
-  EXPECT_NEAR(average(samples, [](const auto& s) { return std::abs(s.value) < 2.5706; }), 0.95, 5 * std::sqrt(0.0475 / kDraws));  // of its table
+  EXPECT_NEAR(average(samples, [](const auto& s) { return std::abs(s.value) < 2.5706; }), 0.95,
+              5 * std::sqrt(0.0475 / kDraws));  // of its table
   for (const auto& s : samples) ASSERT_EQ(s.outlier, s.variance > 9);
 }
 
 TEST(NoiseSource, StepsAndRampsAreBiasedBetweenTheirTimesOnly) {
   const auto plain = draws({}, 1000);
-  const auto step = draws(law(NoiseLaw::Kind::Step, {{&NoiseLaw::bias, -3}, {&NoiseLaw::t0, 20.05}, {&NoiseLaw::t1, 40.05}}), 1000);
+  const auto step =
+      draws(law(NoiseLaw::Kind::Step, {{&NoiseLaw::bias, -3}, {&NoiseLaw::t0, 20.05}, {&NoiseLaw::t1, 40.05}}), 1000);
   const auto ramp = draws(law(NoiseLaw::Kind::Ramp, {{&NoiseLaw::slope, 2}, {&NoiseLaw::t0, 60.05}}), 1000);
   for (std::size_t i = 0; i < 1000; ++i) {
     const double time = 0.1 * static_cast<double>(i);
@@ -124,7 +127,8 @@ TEST(NoiseSource, SpellsOfFrozenAndMissingReadingsTakeTheirShareOfTheTime) {
   const auto frozen = draws(law(NoiseLaw::Kind::Frozen, spells));
   EXPECT_NEAR(average(frozen, [](const auto& s) { return s.frozen; }), share, tolerance);
   for (const auto& s : frozen) ASSERT_EQ(s.frozen, s.outlier);
-  EXPECT_NEAR(average(draws(law(NoiseLaw::Kind::Dropout, spells)), [](const auto& s) { return s.missing; }), share, tolerance);
+  EXPECT_NEAR(average(draws(law(NoiseLaw::Kind::Dropout, spells)), [](const auto& s) { return s.missing; }), share,
+              tolerance);
   const auto some = draws(law(NoiseLaw::Kind::Dropout, {{&NoiseLaw::probability, 0.2}}));
   EXPECT_NEAR(average(some, [](const auto& s) { return s.missing; }), 0.2, 5 * std::sqrt(0.16 / kDraws));
 }
@@ -145,7 +149,8 @@ TEST(NoiseSource, MultipathOnlyMakesLonger) {
 }
 
 TEST(NoiseSource, CorrelatedNoiseKeepsItsVarianceAndForgetsByItsTimeConstant) {
-  const auto samples = draws(law(NoiseLaw::Kind::Correlated, {{&NoiseLaw::time_constant, 2}, {&NoiseLaw::share, 0.75}}));
+  const auto samples =
+      draws(law(NoiseLaw::Kind::Correlated, {{&NoiseLaw::time_constant, 2}, {&NoiseLaw::share, 0.75}}));
   const double tolerance = 5 * std::sqrt(2 * 20.0 / kDraws);  // as if every twentieth were independent
   EXPECT_NEAR(average(samples, square), 1, tolerance);
   for (const std::size_t lag : {1u, 10u, 40u}) {
@@ -160,7 +165,8 @@ TEST(NoiseSource, VaryingNoiseSwingsBetweenOneAndItsFactor) {
   EXPECT_DOUBLE_EQ(samples[0].variance, 1);
   EXPECT_NEAR(samples[50].variance, 16, 1e-9);
   EXPECT_NEAR(samples[25].variance, 2.5 * 2.5, 1e-9);
-  EXPECT_NEAR(average(samples, [](const auto& s) { return s.value * s.value / s.variance; }), 1, 5 * std::sqrt(2.0 / kDraws));
+  EXPECT_NEAR(average(samples, [](const auto& s) { return s.value * s.value / s.variance; }), 1,
+              5 * std::sqrt(2.0 / kDraws));
 }
 
 TEST(NoiseSource, LawsInAListActInTheirOrderAndDrawTheirOwnNumbers) {
@@ -173,7 +179,8 @@ TEST(NoiseSource, LawsInAListActInTheirOrderAndDrawTheirOwnNumbers) {
     EXPECT_DOUBLE_EQ(mixed[i].quantum, 0.5);
   }
   const auto twice = draws(std::vector<NoiseLaw>{bad, bad});
-  EXPECT_NEAR(average(twice, [](const auto& s) { return s.variance == 1e4; }), 0.01, 5 * std::sqrt(0.01 / kDraws));  // independent of each other
+  EXPECT_NEAR(average(twice, [](const auto& s) { return s.variance == 1e4; }), 0.01,
+              5 * std::sqrt(0.01 / kDraws));  // independent of each other
 }
 
 }  // namespace

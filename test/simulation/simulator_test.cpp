@@ -15,7 +15,8 @@ TEST(Simulator, TheSameSeedGivesTheSameNumbersAndAnotherDoesNot) {
   const auto scenario = testing::survey(60);
   const auto a = simulate(scenario, 1), b = simulate(scenario, 1), c = simulate(scenario, 2);
   ASSERT_EQ(a.measurements.size(), b.measurements.size());
-  for (std::size_t i = 0; i < a.measurements.size(); ++i) ASSERT_EQ(a.measurements[i].value, b.measurements[i].value) << i;
+  for (std::size_t i = 0; i < a.measurements.size(); ++i)
+    ASSERT_EQ(a.measurements[i].value, b.measurements[i].value) << i;
   for (std::size_t i = 0; i < a.truth.size(); ++i) ASSERT_EQ(a.truth[i].state, b.truth[i].state) << i;
   EXPECT_NE(a.measurements[10].value, c.measurements[10].value);
 }
@@ -44,7 +45,8 @@ TEST(Simulator, SensorsKeepTheirRatesAndPhases) {
     ASSERT_NEAR(beats, std::round(beats), 1e-6) << sensorName(z.sensor);
     ++counts[static_cast<std::size_t>(z.sensor)];
   }
-  for (int i = 0; i < kSensors; ++i) EXPECT_EQ(counts[static_cast<std::size_t>(i)], 60 * scenario.sensors[static_cast<std::size_t>(i)].rate);
+  for (int i = 0; i < kSensors; ++i)
+    EXPECT_EQ(counts[static_cast<std::size_t>(i)], 60 * scenario.sensors[static_cast<std::size_t>(i)].rate);
 }
 
 TEST(Simulator, MeasurementsScatterAboutTheTruthByTheirSigmaAndLabelsAreRight) {
@@ -60,7 +62,8 @@ TEST(Simulator, MeasurementsScatterAboutTheTruthByTheirSigmaAndLabelsAreRight) {
     for (int row = 0; row < rowsOf(labelled.z.sensor); ++row) {
       double off = (labelled.z.value - Model::expected(labelled.z, run.truthAt(labelled.z.stamp)))(row);
       if (labelled.z.sensor == Sensor::Heading) off = wrapAngle(off);
-      (labelled.outlier[static_cast<std::size_t>(row)] ? bad : good)[sensor].push_back(off / std::sqrt(labelled.z.variance(row)));
+      (labelled.outlier[static_cast<std::size_t>(row)] ? bad : good)[sensor].push_back(
+          off / std::sqrt(labelled.z.variance(row)));
     }
   }
   for (const Sensor sensor : {Sensor::Position, Sensor::Heading, Sensor::Speed}) {
@@ -86,7 +89,8 @@ TEST(Simulator, DropoutsTakeWholeMeasurementsAndLeaveTheOthersAlone) {
   EXPECT_NEAR(lost / 600, 0.25, 5 * std::sqrt(0.1875 / 600));
   std::size_t i = 0;
   for (const auto& z : fewer.measurements) {
-    while (i < all.measurements.size() && (all.measurements[i].stamp != z.stamp || all.measurements[i].sensor != z.sensor)) {
+    while (i < all.measurements.size() &&
+           (all.measurements[i].stamp != z.stamp || all.measurements[i].sensor != z.sensor)) {
       ASSERT_EQ(all.measurements[i].sensor, Sensor::Position);
       ++i;
     }
@@ -154,9 +158,12 @@ TEST(Simulator, TruthIsConsistentWithItself) {
   for (std::size_t i = 1; i < run.truth.size(); ++i) {
     const StateVector &a = run.truth[i - 1].state, &b = run.truth[i].state;
     const double dt = secondsBetween(run.truth[i - 1].stamp, run.truth[i].stamp);
-    const Vector<2> velocity(b(kCurrentNorth) + b(kSpeed) * std::cos(b(kHeading)), b(kCurrentEast) + b(kSpeed) * std::sin(b(kHeading)));
+    const Vector<2> velocity(b(kCurrentNorth) + b(kSpeed) * std::cos(b(kHeading)),
+                             b(kCurrentEast) + b(kSpeed) * std::sin(b(kHeading)));
     ASSERT_LT(((b - a).head<2>() / dt - velocity).norm(), 0.02) << i;
-    ASSERT_NEAR(wrapAngle(b(kHeading) - a(kHeading)) / dt, 0.5 * (run.truth[i - 1].turn_rate + run.truth[i].turn_rate), 0.03) << i;
+    ASSERT_NEAR(wrapAngle(b(kHeading) - a(kHeading)) / dt, 0.5 * (run.truth[i - 1].turn_rate + run.truth[i].turn_rate),
+                0.03)
+        << i;
   }
 }
 

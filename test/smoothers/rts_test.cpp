@@ -58,7 +58,9 @@ std::vector<StateVector> meansOf(const SmootherResult& result) {
 
 class EveryLoss : public ::testing::TestWithParam<LossKind> {};
 std::string nameOf(const ::testing::TestParamInfo<LossKind>& info) { return lossName(info.param); }
-INSTANTIATE_TEST_SUITE_P(Rts, EveryLoss, ::testing::Values(LossKind::L2, LossKind::Huber, LossKind::PseudoHuber, LossKind::Cauchy), nameOf);
+INSTANTIATE_TEST_SUITE_P(Rts, EveryLoss,
+                         ::testing::Values(LossKind::L2, LossKind::Huber, LossKind::PseudoHuber, LossKind::Cauchy),
+                         nameOf);
 
 TEST_P(EveryLoss, StopsWhereTheDenseSystemMovesNoMoreAndHasItsCovariance) {
   const Loss loss(GetParam());
@@ -73,7 +75,8 @@ TEST_P(EveryLoss, StopsWhereTheDenseSystemMovesNoMoreAndHasItsCovariance) {
     const StateMatrix block = P.block(at, at, 6, 6), mine = result.states[k].covariance;
     for (int i = 0; i < kStates; ++i) {
       ASSERT_LT(std::abs(step(at + i)), 1e-4 * std::sqrt(block(i, i))) << "node " << k << ", state " << i;
-      for (int j = 0; j < kStates; ++j) ASSERT_NEAR(mine(i, j), block(i, j), 1e-6 * std::sqrt(block(i, i) * block(j, j))) << "node " << k;
+      for (int j = 0; j < kStates; ++j)
+        ASSERT_NEAR(mine(i, j), block(i, j), 1e-6 * std::sqrt(block(i, i) * block(j, j))) << "node " << k;
     }
   }
   EXPECT_NEAR(result.cost, cost(problem, loss, meansOf(result)), 1e-9 * result.cost);
@@ -93,7 +96,9 @@ TEST(Rts, ASurveyWithItsTurnsHasTheDenseAnswerToo) {
   const Eigen::VectorXd step = dense.step();
   for (std::size_t k = 0; k < problem.nodes(); ++k)
     for (int i = 0; i < kStates; ++i)
-      ASSERT_LT(std::abs(step(static_cast<Eigen::Index>(6 * k) + i)), 1e-4 * std::sqrt(result.states[k].covariance(i, i))) << k << ", " << i;
+      ASSERT_LT(std::abs(step(static_cast<Eigen::Index>(6 * k) + i)),
+                1e-4 * std::sqrt(result.states[k].covariance(i, i)))
+          << k << ", " << i;
 }
 
 TEST(Rts, TheCostOfALongRunFallsAndItConverges) {

@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
-/// The record layout of rosbag's format 2.0 (wiki.ros.org/Bags/Format/2.0), little-endian: a header of named fields, then data, each
-/// behind its length.
+/// The record layout of rosbag's format 2.0 (wiki.ros.org/Bags/Format/2.0), little-endian: a header of named fields,
+/// then data, each behind its length.
 namespace sas_motion::ros_side::bag_format {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";

@@ -24,11 +24,11 @@ struct BagMessage {
   bag_format::Bytes bytes{nullptr, 0};
 };
 
-/// Reads a bag's messages in order of time, chunk by chunk. rosbag::Bag keeps an index of every message in memory; this one holds the chunks
-/// that reach over the present moment, and 40 bytes for each chunk of the file.
+/// Reads a bag's messages in order of time, chunk by chunk. rosbag::Bag keeps an index of every message in memory; this
+/// one holds the chunks that reach over the present moment, and 40 bytes for each chunk of the file.
 ///
-/// Among messages of equal time the order is rosbag::View's with up to 16 connections: first the connection whose last message was read last,
-/// then the highest id. (With more, View's order among them is that of an unstable sort.)
+/// Among messages of equal time the order is rosbag::View's with up to 16 connections: first the connection whose last
+/// message was read last, then the highest id. (With more, View's order among them is that of an unstable sort.)
 ///
 /// All functions throw std::runtime_error: one sentence that names the file and says what to do.
 class BagReader {
@@ -49,7 +49,8 @@ class BagReader {
   bool get(const BagMessage& message, Message& into) const {
     if (message.connection->md5sum != ros::message_traits::MD5Sum<Message>::value()) return false;
     guarded([&] {
-      ros::serialization::IStream stream(const_cast<std::uint8_t*>(message.bytes.data()), static_cast<std::uint32_t>(message.bytes.size()));
+      ros::serialization::IStream stream(const_cast<std::uint8_t*>(message.bytes.data()),
+                                         static_cast<std::uint32_t>(message.bytes.size()));
       ros::serialization::deserialize(stream, into);
     });
     return true;

@@ -16,8 +16,8 @@
 
 namespace sas_motion::ros_side {
 
-/// Writes a rosbag, format 2.0, from front to back, without compression. rosbag::Bag seeks the end of the file for every message, which is
-/// most of its time; this one only appends chunks. The bytes depend on what is written alone.
+/// Writes a rosbag, format 2.0, from front to back, without compression. rosbag::Bag seeks the end of the file for
+/// every message, which is most of its time; this one only appends chunks. The bytes depend on what is written alone.
 class BagWriter {
  public:
   /// All functions throw std::runtime_error where the file cannot be written.

@@ -26,10 +26,11 @@ struct ChunkInfo {
   std::uint32_t order = 0;  ///< its place in the index
 };
 
-/// The file of a bag, as a list of chunks. Every length in it is checked against the file's before memory is taken for it.
+/// The file of a bag, as a list of chunks. Every length in it is checked against the file's before memory is taken for
+/// it.
 ///
-/// The constructor throws std::runtime_error, one sentence that names the file, where it cannot be read at all; all functions throw
-/// bag_format::Error where its content does not follow the format.
+/// The constructor throws std::runtime_error, one sentence that names the file, where it cannot be read at all; all
+/// functions throw bag_format::Error where its content does not follow the format.
 class ChunkFile {
  public:
   explicit ChunkFile(const std::string& path);

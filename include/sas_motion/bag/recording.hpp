@@ -52,8 +52,8 @@ struct Recording {
   std::map<std::pair<Stamp, std::string>, bool> outlier;  ///< the simulator's labels, by stamp and sensor
   bool labelled() const { return !outlier.empty(); }
 
-  /// Reads NAME/settled where there is one, else NAME/odometry, with NAME/current and NAME/update; truth/fix with truth/odometry and
-  /// truth/current. Throws std::runtime_error naming the file and the topic that is missing.
+  /// Reads NAME/settled where there is one, else NAME/odometry, with NAME/current and NAME/update; truth/fix with
+  /// truth/odometry and truth/current. Throws std::runtime_error naming the file and the topic that is missing.
   static Recording read(const std::string& bag);
 
   /// Truth at a stamp by linear interpolation; nothing outside it or in a gap of more than a few seconds.

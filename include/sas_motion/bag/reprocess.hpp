@@ -62,8 +62,8 @@ class ReprocessSystem {
   /// Throws std::runtime_error with a sentence where there is no such estimator.
   virtual void require(const std::string& estimator) const = 0;
   /// Throws std::runtime_error naming the file and the topics that are missing.
-  virtual std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file, const std::vector<std::string>& estimators,
-                                        const RunOutput& out) const = 0;
+  virtual std::unique_ptr<BagRun> begin(const BagReader& source, const std::string& file,
+                                        const std::vector<std::string>& estimators, const RunOutput& out) const = 0;
   virtual const MapSettings& map() const = 0;
 };
 
@@ -72,10 +72,11 @@ std::unique_ptr<ReprocessSystem> makeInsSystem(const std::string& config);
 /// The system that the configuration file is of: towfish where it does not say. Throws ConfigError.
 std::unique_ptr<ReprocessSystem> makeReprocessSystem(const std::string& config);
 
-/// Runs estimators over a bag and writes a bag of the same name into `folder`: the input's messages, and each estimator's estimates and
-/// audit; beside it a TUM file for each estimator. Throws std::runtime_error naming the file or topic. `progress` is told the seconds of
-/// data done.
-ReprocessReport reprocess(const std::string& input, const std::string& folder, const std::vector<std::string>& estimators, const ReprocessSystem& system,
+/// Runs estimators over a bag and writes a bag of the same name into `folder`: the input's messages, and each
+/// estimator's estimates and audit; beside it a TUM file for each estimator. Throws std::runtime_error naming the file
+/// or topic. `progress` is told the seconds of data done.
+ReprocessReport reprocess(const std::string& input, const std::string& folder,
+                          const std::vector<std::string>& estimators, const ReprocessSystem& system,
                           const std::function<void(double)>& progress);
 
 }  // namespace sas_motion::ros_side

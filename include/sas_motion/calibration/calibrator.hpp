@@ -21,7 +21,7 @@ struct Config {
   FitOptions fit;               ///< of batch, and of the filters' start
   State drift = State::Zero();  ///< standard deviation of the state's change from ping to ping [rad, m]
   double start_window = 60;     ///< filters begin with a robust fit of the pings of this long; 0: with the prior [s]
-  double check_window = 300;    ///< a fit of the pings of this long says whether a filter has locked in; 0: none does [s]
+  double check_window = 300;  ///< a fit of the pings of this long says whether a filter has locked in; 0: none does [s]
   Loss huber{LossKind::Huber};
   double student_t_nu = 3;           ///< degrees of freedom of student_t_vbckf [-]
   double correntropy_bandwidth = 2;  ///< of mc_vbckf [-]
@@ -33,8 +33,9 @@ const std::vector<std::string>& filterNames();
 /// The settings of a filter; nothing for an unknown name.
 std::optional<AdaptiveCubatureOptions> filterOptions(const std::string& name, const Config& config);
 
-/// One filter over the pings of a calibration, guarded against what a first outlier or wrongly stated noise would do to it: it starts from a
-/// robust fit of the first minute, and where later pings, fitted on their own, contradict it, it has locked in and starts from their fit.
+/// One filter over the pings of a calibration, guarded against what a first outlier or wrongly stated noise would do to
+/// it: it starts from a robust fit of the first minute, and where later pings, fitted on their own, contradict it, it
+/// has locked in and starts from their fit.
 class Calibrator {
  public:
   using Report = Update<CubatureFilter::Belief, kChannels>;
@@ -42,8 +43,8 @@ class Calibrator {
   /// Throws std::invalid_argument for an unknown filter.
   Calibrator(const std::string& filter, const Config& config);
 
-  /// Takes a ping with a reading of direction angles. Pings must come in the order of time. The report is Invalid while the start waits, for
-  /// a ping without any usable channel, and where the filter fails.
+  /// Takes a ping with a reading of direction angles. Pings must come in the order of time. The report is Invalid while
+  /// the start waits, for a ping without any usable channel, and where the filter fails.
   Report process(const Ping& ping);
 
   bool started() const { return started_; }

@@ -26,10 +26,11 @@ struct Estimated {
   std::string name;
   Unknowns x = Unknowns::Zero();
   Matrix<kUnknowns> covariance = Matrix<kUnknowns>::Zero();
-  std::vector<Vector<kChannels>> noise;  ///< of each ping's channels: standard deviation of good noise over the stated one
-  std::vector<TracePoint> trace;         ///< from a filter's start on; none of batch
-  int lock_ins = 0;                      ///< how often it was found to have locked in, and started anew
-  std::string failure;                   ///< in plain words; empty where there is none
+  std::vector<Vector<kChannels>>
+      noise;                      ///< of each ping's channels: standard deviation of good noise over the stated one
+  std::vector<TracePoint> trace;  ///< from a filter's start on; none of batch
+  int lock_ins = 0;               ///< how often it was found to have locked in, and started anew
+  std::string failure;            ///< in plain words; empty where there is none
 
   Unknowns sigma() const { return covariance.diagonal().cwiseSqrt(); }
 };
@@ -44,7 +45,8 @@ struct ChannelStatistics {
 };
 /// Squared distance, of six states, that two honest answers stay below with a probability of 99 %.
 double agreementLimit();
-constexpr double kOutlier = 3;  ///< a residual beyond this many standard deviations of the estimated noise is called an outlier
+constexpr double kOutlier =
+    3;  ///< a residual beyond this many standard deviations of the estimated noise is called an outlier
 
 /// All estimators of a calibration on the same pings, and whether their answer may be believed.
 struct Comparison {
@@ -54,7 +56,8 @@ struct Comparison {
   Observability observability;       ///< at the answer
   double distance = 0;               ///< squared Mahalanobis distance between the answer and batch [-]
   bool agrees = true;                ///< with batch: a filter that has locked in does not
-  std::string implausible;           ///< in plain words, why the answer cannot be right although it may be observable; empty where it can
+  std::string implausible;  ///< in plain words, why the answer cannot be right although it may be observable; empty
+                            ///< where it can
   std::vector<std::string> warnings;
   std::string failure;  ///< no estimator gave an answer
 
@@ -62,11 +65,12 @@ struct Comparison {
   bool trusted() const { return failure.empty() && implausible.empty() && observability.observable && agrees; }
 };
 
-/// Runs filters by name, and batch, which is always run since it cannot lock in. The answer is hvbckf's where it is among them and no further
-/// unknowns are estimated, else batch's. Names that `fitters` does not know must be of filterNames().
+/// Runs filters by name, and batch, which is always run since it cannot lock in. The answer is hvbckf's where it is
+/// among them and no further unknowns are estimated, else batch's. Names that `fitters` does not know must be of
+/// filterNames().
 Comparison compare(
-    const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names, const FitterFactory& fitters = nativeFitter,
-    const std::function<void()>& progress = [] {});
+    const std::vector<Ping>& pings, const Config& config, const std::vector<std::string>& names,
+    const FitterFactory& fitters = nativeFitter, const std::function<void()>& progress = [] {});
 
 /// Residuals of a ping over the noise that an estimator saw there; 0 where a channel is absent.
 Vector<kChannels> whitenedResidual(const Comparison& comparison, const Estimated& estimated, std::size_t ping);

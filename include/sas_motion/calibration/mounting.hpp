@@ -13,15 +13,18 @@ struct Mounting {
   Vector<3> lever_arm_body = Vector<3>::Zero();    ///< the array's acoustic centre from the reference point [m]
 };
 
-/// A nominal mounting corrected by a state whose "body" is the nominal array: first the correction, then the nominal mounting.
+/// A nominal mounting corrected by a state whose "body" is the nominal array: first the correction, then the nominal
+/// mounting.
 inline Mounting corrected(const Mounting& nominal, const State& correction) {
-  return {nominal.C_body_array * mountingRotation(correction.head<3>()), nominal.lever_arm_body + nominal.C_body_array * correction.tail<3>()};
+  return {nominal.C_body_array * mountingRotation(correction.head<3>()),
+          nominal.lever_arm_body + nominal.C_body_array * correction.tail<3>()};
 }
 
 /// The state that corrects a nominal mounting to another.
 inline State correctionTo(const Mounting& mounting, const Mounting& nominal) {
   const Attitude angles = attitudeOf(nominal.C_body_array.transpose() * mounting.C_body_array);
-  return (State() << angles.pitch, angles.roll, angles.heading, nominal.C_body_array.transpose() * (mounting.lever_arm_body - nominal.lever_arm_body))
+  return (State() << angles.pitch, angles.roll, angles.heading,
+          nominal.C_body_array.transpose() * (mounting.lever_arm_body - nominal.lever_arm_body))
       .finished();
 }
 

@@ -28,16 +28,18 @@ constexpr int kOmissions = 6;
 /// In plain words: "without a usable channel", ...
 const std::string& omissionText(Omission omission);
 
-/// Makes pings of what the vessel's sensors say: the pose at each reception, interpolated between its neighbours, and the surveyed
-/// transponder from there. Poses and readings may come in any order; pings leave in the order of their stamps.
+/// Makes pings of what the vessel's sensors say: the pose at each reception, interpolated between its neighbours, and
+/// the surveyed transponder from there. Poses and readings may come in any order; pings leave in the order of their
+/// stamps.
 ///
-/// The reference point is found at the antenna's stamps, where the attitude is interpolated to take its lever arm off, and then interpolated
-/// itself: a mast's antenna swings with the waves, the reference point hardly does.
+/// The reference point is found at the antenna's stamps, where the attitude is interpolated to take its lever arm off,
+/// and then interpolated itself: a mast's antenna swings with the waves, the reference point hardly does.
 class PingBuilder {
  public:
   explicit PingBuilder(const PingBuilderOptions& options) : options_(options) {}
 
-  /// The nominal mounting takes the body's place in the pings made from now on: what a calibration finds of them is a correction of it.
+  /// The nominal mounting takes the body's place in the pings made from now on: what a calibration finds of them is a
+  /// correction of it.
   void setNominal(const Mounting& nominal) { nominal_ = nominal; }
   /// A surveyed transponder; the last word counts.
   void addTransponder(std::uint32_t id, const Geodetic& position) { transponders_[id] = position; }

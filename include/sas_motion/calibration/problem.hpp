@@ -10,7 +10,8 @@
 
 namespace sas_motion::usbl {
 
-/// What is known of the unknowns before any ping: mean and standard deviation. Those that are not `estimated` are known to be at their mean.
+/// What is known of the unknowns before any ping: mean and standard deviation. Those that are not `estimated` are known
+/// to be at their mean.
 struct Prior {
   Unknowns mean = Unknowns::Zero();
   Unknowns sigma = defaultSigma();
@@ -35,9 +36,11 @@ Vector<kChannels> normalisedResidual(const Problem& problem, const Ping& ping, c
 
 double cost(const Problem& problem, const Loss& loss, const Unknowns& x);
 
-/// What the pings tell of the unknowns by good noise of the problem's scale, linearised at x: sum H^T R^{-1} H, without the prior; rows and
-/// columns of what is not estimated are 0. `factor` is the noise's Fisher information over a Gaussian's.
-Matrix<kUnknowns> information(const Problem& problem, const Unknowns& x, const Vector<kChannels>& factor = Vector<kChannels>::Ones());
+/// What the pings tell of the unknowns by good noise of the problem's scale, linearised at x: sum H^T R^{-1} H, without
+/// the prior; rows and columns of what is not estimated are 0. `factor` is the noise's Fisher information over a
+/// Gaussian's.
+Matrix<kUnknowns> information(const Problem& problem, const Unknowns& x,
+                              const Vector<kChannels>& factor = Vector<kChannels>::Ones());
 
 /// The inverse of data and prior information; variances of what is not estimated are 0.
 Matrix<kUnknowns> covarianceFrom(const Matrix<kUnknowns>& data, const Prior& prior);

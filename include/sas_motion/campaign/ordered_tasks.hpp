@@ -12,8 +12,9 @@
 
 namespace sas_motion {
 
-/// Computes `work(task)` for first <= task < last on `jobs` threads and hands the results to `use` in the order of the tasks, each as soon as
-/// its turn comes. A thread that is far ahead waits, so that few results are held. What `work` or `use` throws reaches the caller.
+/// Computes `work(task)` for first <= task < last on `jobs` threads and hands the results to `use` in the order of the
+/// tasks, each as soon as its turn comes. A thread that is far ahead waits, so that few results are held. What `work`
+/// or `use` throws reaches the caller.
 template <class Work, class Use>
 void inOrder(std::size_t first, std::size_t last, int jobs, Work&& work, Use&& use) {
   using Result = decltype(work(first));

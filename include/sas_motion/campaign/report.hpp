@@ -61,7 +61,8 @@ struct Trace {
   int nees_degrees = 0, nis_degrees = 0;
 };
 
-/// Whether a filter was ever sure of the wrong thing: a position error beyond five of its own standard deviations for more than five epochs.
+/// Whether a filter was ever sure of the wrong thing: a position error beyond five of its own standard deviations for
+/// more than five epochs.
 class LockOut {
  public:
   explicit LockOut(double epoch) : longest_(5 * epoch) {}
@@ -82,8 +83,8 @@ class LockOut {
   bool locked_out_ = false;
 };
 
-/// Watches an estimate come near the truth. To have come it must be near without a break for so long up to the end of the run: one that just passes by has
-/// not.
+/// Watches an estimate come near the truth. To have come it must be near without a break for so long up to the end of
+/// the run: one that just passes by has not.
 class ConvergenceWatch {
  public:
   /// `hold`: the least time that it has to stay [s].

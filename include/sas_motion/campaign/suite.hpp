@@ -17,10 +17,12 @@ struct Suite {
   std::uint64_t first_seed = 1;
   std::vector<std::unique_ptr<System>> campaigns;
 
-  /// Files named in a suite are relative to it; without `fitters`, `make_ins` and `make_sins`, campaigns of usbl, ins_gps_dvl and sins_dvl have
-  /// filters only. Throws ConfigError.
-  static Suite fromFile(const std::string& file, const towfish::EstimatorFactory& make, const usbl::FitterFactory& fitters = {},
-                        const ins::EstimatorFactory& make_ins = ins::makeEstimator, const sins::EstimatorFactory& make_sins = sins::makeEstimator);
+  /// Files named in a suite are relative to it; without `fitters`, `make_ins` and `make_sins`, campaigns of usbl,
+  /// ins_gps_dvl and sins_dvl have filters only. Throws ConfigError.
+  static Suite fromFile(const std::string& file, const towfish::EstimatorFactory& make,
+                        const usbl::FitterFactory& fitters = {},
+                        const ins::EstimatorFactory& make_ins = ins::makeEstimator,
+                        const sins::EstimatorFactory& make_sins = sins::makeEstimator);
 
   /// A run: tasks are numbered by campaign, law, then seed.
   struct Task {

@@ -33,11 +33,15 @@ class System {
 
   /// Simulates one run and lets every estimator work on it. The same law and seed give the same numbers, on any thread.
   virtual std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const = 0;
-  /// The posterior Cramer-Rao bound on each group's RMSE over the scored time, averaged over the truths of `seeds`; empty where there is none.
+  /// The posterior Cramer-Rao bound on each group's RMSE over the scored time, averaged over the truths of `seeds`;
+  /// empty where there is none.
   virtual Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const = 0;
   virtual Named<Trace> trace(std::size_t law, std::uint64_t seed) const = 0;
-  /// Writes what every estimator of a run sees in its first aperture into a folder; nothing where the system makes no images.
-  virtual std::optional<imaging::FocusResult> images(std::size_t, std::uint64_t, const std::string&) const { return std::nullopt; }
+  /// Writes what every estimator of a run sees in its first aperture into a folder; nothing where the system makes no
+  /// images.
+  virtual std::optional<imaging::FocusResult> images(std::size_t, std::uint64_t, const std::string&) const {
+    return std::nullopt;
+  }
 };
 
 }  // namespace sas_motion

@@ -40,7 +40,8 @@ struct Campaign {
 
 using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string& name, const Config& config)>;
 
-/// The name of the reference that is told the true variance of each row and of each draw of process noise: a Kalman filter.
+/// The name of the reference that is told the true variance of each row and of each draw of process noise: a Kalman
+/// filter.
 constexpr const char* kOracle = "oracle_kf";
 /// The name of the reference that is told the law of the noise, but not which readings are bad: a Gaussian sum.
 constexpr const char* kBayesReference = "bayes_reference";
@@ -49,7 +50,7 @@ constexpr const char* kBayesReference = "bayes_reference";
 using Listener = std::function<void(const Output&)>;
 
 /// Lets an estimator work on a run under `scenario`; returns the CPU time that it took, without the listener's [s].
-double estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name, const EstimatorFactory& make,
-                const Listener& listen);
+double estimate(const Campaign& campaign, const Scenario& scenario, const SimulatedRun& run, const std::string& name,
+                const EstimatorFactory& make, const Listener& listen);
 
 }  // namespace sas_motion::towfish

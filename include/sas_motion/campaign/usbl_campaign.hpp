@@ -50,7 +50,8 @@ struct Output {
 };
 
 /// Lets an estimator work on the pings of a run.
-Output estimate(const Campaign& campaign, const std::vector<LabelledPing>& pings, const std::string& name, const FitterFactory& fitters);
+Output estimate(const Campaign& campaign, const std::vector<LabelledPing>& pings, const std::string& name,
+                const FitterFactory& fitters);
 
 /// Whether `estimate` knows a name.
 bool isEstimator(const std::string& name, const FitterFactory& fitters);

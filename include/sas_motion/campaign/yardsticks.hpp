@@ -8,8 +8,9 @@
 
 namespace sas_motion::towfish {
 
-/// The oracle of a run, which must outlive it: a Kalman filter that is told the variance of each draw of the process noise. What it is told
-/// of a reading's comes with toldTheTruth(). Truth that is not drawn from the model has no such draws; it then has the model's own noise.
+/// The oracle of a run, which must outlive it: a Kalman filter that is told the variance of each draw of the process
+/// noise. What it is told of a reading's comes with toldTheTruth(). Truth that is not drawn from the model has no such
+/// draws; it then has the model's own noise.
 std::unique_ptr<Estimator> makeOracle(const Campaign& campaign, const SimulatedRun& run);
 
 /// A reading with the variance that it was drawn with.

@@ -6,7 +6,8 @@
 
 namespace sas_motion::imaging {
 
-/// Reads what `focus` looks at and how. The sonar stands under `sonar`, or in the file that `sonar_file` names, relative to this one. Throws ConfigError.
+/// Reads what `focus` looks at and how. The sonar stands under `sonar`, or in the file that `sonar_file` names,
+/// relative to this one. Throws ConfigError.
 FocusSettings readFocus(const std::string& file);
 
 }  // namespace sas_motion::imaging

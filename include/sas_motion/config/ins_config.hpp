@@ -25,8 +25,8 @@ struct Settings {
   SessionOptions session;
   std::array<MessageOptions, kSensors> messages;  ///< by Sensor
   double imu_time_offset = 0;                     ///< added to the stamps of the inertial unit [s]
-  double surface = 0;                             ///< height of the water's surface above the ellipsoid: depths are below it [m]
-  double output_rate = 50;                        ///< of estimates [1/s]
+  double surface = 0;       ///< height of the water's surface above the ellipsoid: depths are below it [m]
+  double output_rate = 50;  ///< of estimates [1/s]
 
   MessageOptions& of(Sensor sensor) { return messages[static_cast<std::size_t>(sensor)]; }
   const MessageOptions& of(Sensor sensor) const { return messages[static_cast<std::size_t>(sensor)]; }

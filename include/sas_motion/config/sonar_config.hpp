@@ -7,8 +7,8 @@
 
 namespace sas_motion::imaging {
 
-/// Reads the keys of a sonar, which equal the members of SonarDescription. Throws ConfigError, also where the ping rate undersamples the aperture
-/// at `speed` or overlaps echoes; the sentence then says the rate needed.
+/// Reads the keys of a sonar, which equal the members of SonarDescription. Throws ConfigError, also where the ping rate
+/// undersamples the aperture at `speed` or overlaps echoes; the sentence then says the rate needed.
 void readSonar(YamlSection yaml, SonarDescription& sonar);
 
 }  // namespace sas_motion::imaging

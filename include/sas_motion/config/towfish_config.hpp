@@ -32,8 +32,9 @@ struct Config {
   MotionParameters model;
   std::array<SensorOptions, kSensors> sensors{};  ///< by Sensor
   StartOptions start;
-  double lag = 5;                            ///< late measurements are fused at their own time up to this age [s]
-  double reset_after = 20;                   ///< a row disbelieved for longer, with readings that agree, is believed again by robust filters [s]
+  double lag = 5;  ///< late measurements are fused at their own time up to this age [s]
+  double reset_after =
+      20;  ///< a row disbelieved for longer, with readings that agree, is believed again by robust filters [s]
   double max_gap = 10;                       ///< a stamp further ahead of all others is not believed alone [s]
   double input_hold = 1;                     ///< a turn rate is believed this long [s]
   double turn_rate_limit = 30 * kRadPerDeg;  ///< a faster turn rate is invalid [rad/s]

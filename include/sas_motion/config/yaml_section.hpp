@@ -24,8 +24,8 @@ struct Range {
 };
 constexpr double kTiny = 1e-12;  ///< the lower bound of what must be positive
 
-/// One mapping of a YAML file. Each read takes a key that may be absent (the value then stays); finish() refuses keys that none of the
-/// reads asked for. All errors are ConfigError.
+/// One mapping of a YAML file. Each read takes a key that may be absent (the value then stays); finish() refuses keys
+/// that none of the reads asked for. All errors are ConfigError.
 class YamlSection {
  public:
   static YamlSection fromFile(const std::string& file);

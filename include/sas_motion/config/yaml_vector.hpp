@@ -15,7 +15,8 @@ namespace sas_motion {
 
 /// A key that holds a list of N numbers, each at least `lower`. Throws ConfigError.
 template <int N>
-void readVector(YamlSection& yaml, const std::string& key, Vector<N>& value, double lower = -std::numeric_limits<double>::infinity()) {
+void readVector(YamlSection& yaml, const std::string& key, Vector<N>& value,
+                double lower = -std::numeric_limits<double>::infinity()) {
   std::vector<double> numbers(value.data(), value.data() + N);
   yaml.numbers(key, numbers, N);
   for (const double number : numbers)
@@ -30,11 +31,13 @@ inline void readScaled(YamlSection& yaml, const std::string& key, double& value,
   value = number * unit;
 }
 
-/// A key that holds latitude, longitude [deg] and altitude [m], the latitude within `bound` of the equator. Throws ConfigError.
+/// A key that holds latitude, longitude [deg] and altitude [m], the latitude within `bound` of the equator. Throws
+/// ConfigError.
 inline void readGeodetic(YamlSection& yaml, const std::string& key, Geodetic& value, int bound = 90) {
   Vector<3> numbers(value.latitude_deg, value.longitude_deg, value.altitude);
   readVector<3>(yaml, key, numbers);
-  if (std::abs(numbers(0)) > bound) yaml.fail(key, fmt::format("has latitude {} but it must lie between -{} and {}", numbers(0), bound, bound));
+  if (std::abs(numbers(0)) > bound)
+    yaml.fail(key, fmt::format("has latitude {} but it must lie between -{} and {}", numbers(0), bound, bound));
   value = {numbers(0), numbers(1), numbers(2)};
 }
 

@@ -16,25 +16,29 @@
 
 namespace sas_motion {
 
-/// The posterior Cramer-Rao bound of filtering: no estimator's mean square error is below covariance(), the inverse of the information
-///     J_{k+1} = D22 - D21 (J_k + D11)^{-1} D12,   D11 = E[F^T Q^{-1} F],  D12 = -E[F^T Q^{-1}],  D22 = E[Q^{-1}] + E[H^T R^{-1} H]
-/// with expectations over truths [Tichavsky1998, eq 21, 34 to 36]. Non-Gaussian noise has Q and R over its information factor.
+/// The posterior Cramer-Rao bound of filtering: no estimator's mean square error is below covariance(), the inverse of
+/// the information
+///     J_{k+1} = D22 - D21 (J_k + D11)^{-1} D12,   D11 = E[F^T Q^{-1} F],  D12 = -E[F^T Q^{-1}],  D22 = E[Q^{-1}] +
+///     E[H^T R^{-1} H]
+/// with expectations over truths [Tichavsky1998, eq 21, 34 to 36]. Non-Gaussian noise has Q and R over its information
+/// factor.
 ///
-/// Where all truths have the same F and Q this is (Q + F J^{-1} F^T)^{-1}, which also holds for a singular Q. Elsewhere the new J is read
-/// off a QR factorization, without the differences of large numbers above, and Q must be positive definite. A constant parameter (F = I,
-/// Q = 0) keeps its information: the ordinary bound.
+/// Where all truths have the same F and Q this is (Q + F J^{-1} F^T)^{-1}, which also holds for a singular Q. Elsewhere
+/// the new J is read off a QR factorization, without the differences of large numbers above, and Q must be positive
+/// definite. A constant parameter (F = I, Q = 0) keeps its information: the ordinary bound.
 template <int N>
 class PosteriorBound {
  public:
   /// Begins with what is known before: the inverse of the prior covariance, or zero.
   explicit PosteriorBound(const Matrix<N>& information) : J_(information) {}
 
-  /// One step of time, linearised at each truth; the process noise has `factor` times the information of a Gaussian's. Throws
-  /// std::invalid_argument where there is no truth or no answer.
+  /// One step of time, linearised at each truth; the process noise has `factor` times the information of a Gaussian's.
+  /// Throws std::invalid_argument where there is no truth or no answer.
   void step(const std::vector<Transition<N>>& truths, double factor = 1) {
     if (truths.empty()) throw std::invalid_argument("PosteriorBound: a step needs at least one truth");
     const Transition<N>& first = truths.front();
-    const bool same = std::all_of(truths.begin(), truths.end(), [&](const Transition<N>& t) { return t.F == first.F && t.Q == first.Q; });
+    const bool same = std::all_of(truths.begin(), truths.end(),
+                                  [&](const Transition<N>& t) { return t.F == first.F && t.Q == first.Q; });
     if (same && first.F.isIdentity(0) && first.Q.isZero(0)) return;
     const Eigen::LLT<Matrix<N>> llt(J_);
     if (same && llt.info() == Eigen::Success)
@@ -44,8 +48,8 @@ class PosteriorBound {
     symmetrize(J_);
   }
 
-  /// One measurement, linearised at each truth. `factors` are, for each truth, how much each row tells over a Gaussian of its R: 0 where
-  /// nothing; none for 1. R is diagonal.
+  /// One measurement, linearised at each truth. `factors` are, for each truth, how much each row tells over a Gaussian
+  /// of its R: 0 where nothing; none for 1. R is diagonal.
   template <int M>
   void measurement(const std::vector<LinearMeasurement<N, M>>& truths, const std::vector<Vector<M>>& factors = {}) {
     Matrix<N> sum = Matrix<N>::Zero();
@@ -69,22 +73,26 @@ class PosteriorBound {
  private:
   static Matrix<N> inverse(const Matrix<N>& A) {
     const Eigen::LLT<Matrix<N>> llt(A);
-    if (llt.info() != Eigen::Success) throw std::invalid_argument("PosteriorBound: Q + F J^{-1} F^T is not positive definite");
+    if (llt.info() != Eigen::Success)
+      throw std::invalid_argument("PosteriorBound: Q + F J^{-1} F^T is not positive definite");
     return llt.solve(Matrix<N>::Identity());
   }
 
-  /// With J = U^T U and a row [-W F, W] for each truth, W^T W = factor Q^{-1} over the number of truths, the QR factorization of
-  /// [U, 0; -W F, W] eliminates the old state; the last block R22 has R22^T R22 = D22 - D21 (J + D11)^{-1} D12.
+  /// With J = U^T U and a row [-W F, W] for each truth, W^T W = factor Q^{-1} over the number of truths, the QR
+  /// factorization of [U, 0; -W F, W] eliminates the old state; the last block R22 has R22^T R22 = D22 - D21 (J +
+  /// D11)^{-1} D12.
   void stepByQr(const std::vector<Transition<N>>& truths, double factor) {
     const Eigen::Index count = static_cast<Eigen::Index>(truths.size());
     Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(N * (count + 1), Eigen::Index{2} * N);
     const Eigen::SelfAdjointEigenSolver<Matrix<N>> eigen(J_);
-    stacked.template topLeftCorner<N, N>() = eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+    stacked.template topLeftCorner<N, N>() =
+        eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
     const double share = std::sqrt(factor / static_cast<double>(count));
     for (Eigen::Index i = 0; i < count; ++i) {
       const Transition<N>& truth = truths[static_cast<std::size_t>(i)];
       const Eigen::LLT<Matrix<N>> llt(truth.Q);
-      if (llt.info() != Eigen::Success) throw std::invalid_argument("PosteriorBound: Q must be positive definite where truths differ");
+      if (llt.info() != Eigen::Success)
+        throw std::invalid_argument("PosteriorBound: Q must be positive definite where truths differ");
       stacked.template block<N, N>(N * (i + 1), 0) = -share * llt.matrixL().solve(truth.F);
       stacked.template block<N, N>(N * (i + 1), N) = share * llt.matrixL().solve(Matrix<N>::Identity());
     }
@@ -98,8 +106,9 @@ class PosteriorBound {
 
 /// Means of the bound over the scored times of runs whose genies say different things, or that lack different readings.
 ///
-/// Given what is told in a run, J^{-1} bounds the mean square error of all runs that are told the same (J with expectations over truths), so
-/// the mean of J^{-1} over runs bounds that of all runs. The inverse of the mean J is a bound too, but a lower one: (E J)^{-1} <= E J^{-1}.
+/// Given what is told in a run, J^{-1} bounds the mean square error of all runs that are told the same (J with
+/// expectations over truths), so the mean of J^{-1} over runs bounds that of all runs. The inverse of the mean J is a
+/// bound too, but a lower one: (E J)^{-1} <= E J^{-1}.
 template <int N>
 class MeanBound {
  public:

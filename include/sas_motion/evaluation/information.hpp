@@ -6,15 +6,16 @@
 
 namespace sas_motion {
 
-/// How much readings with a noise law tell of what they measure: their Fisher information over 1 / sigma^2 of the good noise.
+/// How much readings with a noise law tell of what they measure: their Fisher information over 1 / sigma^2 of the good
+/// noise.
 ///
-/// Independent draws (contaminated, Student's t, multipath, quantised) count by the integral of their density's score squared. What lasts
-/// (burst, step, ramp, frozen, correlated, varying) gets a genie: it says which readings are bad, and they count nothing, or what the
-/// correlated part and the present sigma are. The bound is then lower than what can be reached. Missing readings count nothing either, but
-/// that is no secret.
+/// Independent draws (contaminated, Student's t, multipath, quantised) count by the integral of their density's score
+/// squared. What lasts (burst, step, ramp, frozen, correlated, varying) gets a genie: it says which readings are bad,
+/// and they count nothing, or what the correlated part and the present sigma are. The bound is then lower than what can
+/// be reached. Missing readings count nothing either, but that is no secret.
 ///
-/// What a genie says differs from run to run: see MeanBound. (Averaging the information of all runs in each step instead is lower by 13 %
-/// where one second in twenty has ten times the process noise.)
+/// What a genie says differs from run to run: see MeanBound. (Averaging the information of all runs in each step
+/// instead is lower by 13 % where one second in twenty has ten times the process noise.)
 class MeasurementInformation {
  public:
   /// Throws std::invalid_argument for two multipath laws in one list.
@@ -39,8 +40,8 @@ struct ProcessInformation {
   bool genie = false;  ///< told how large the noise is in each step: multiply Q by it
 };
 
-/// Of `states` states over a step of `step` seconds. Contamination that is drawn for each state and step, or once a step for all, counts by
-/// its density; what lasts for longer gets a genie.
+/// Of `states` states over a step of `step` seconds. Contamination that is drawn for each state and step, or once a
+/// step for all, counts by its density; what lasts for longer gets a genie.
 ProcessInformation processInformation(const NoiseMix& mix, int states, double step);
 
 }  // namespace sas_motion

@@ -12,12 +12,14 @@ enum class BurstSize { Known, Unknown };
 
 /// Options of a GaussianSumFilter that knows the laws its data are drawn from, as far as Gaussian terms say them.
 ///
-/// Student's t and multipath become Gaussians by quantiles, varying sigma a mixture over its phases, rounding a variance. Bursts become a
-/// bias mode of each row; frozen, step and ramp one of unknown size, the last two once in 1000 s (their times are not told). Several such
-/// laws share one mode of unknown size. Correlated noise counts as white, dropouts need nothing. A manoeuvre keeps its scale from epoch to
-/// epoch of `period` seconds, the time between updates. Process noise that is drawn for each state and step counts by its mean variance:
-/// there are too many branches to follow.
-GaussianSumOptions lawAware(const NoiseMix& measurement, const NoiseMix& process, double period, BurstSize bursts = BurstSize::Unknown);
+/// Student's t and multipath become Gaussians by quantiles, varying sigma a mixture over its phases, rounding a
+/// variance. Bursts become a bias mode of each row; frozen, step and ramp one of unknown size, the last two once in
+/// 1000 s (their times are not told). Several such laws share one mode of unknown size. Correlated noise counts as
+/// white, dropouts need nothing. A manoeuvre keeps its scale from epoch to epoch of `period` seconds, the time between
+/// updates. Process noise that is drawn for each state and step counts by its mean variance: there are too many
+/// branches to follow.
+GaussianSumOptions lawAware(const NoiseMix& measurement, const NoiseMix& process, double period,
+                            BurstSize bursts = BurstSize::Unknown);
 
 /// Student's t as Gaussians: their variances are the inverse mean precisions between quantiles.
 std::vector<NoiseTerm> studentTerms(double nu);

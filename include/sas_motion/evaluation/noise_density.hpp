@@ -17,8 +17,8 @@ class NoiseDensity {
   bool delay(double probability, double mean);
   void scale(double sigma);
 
-  /// Fisher information of the location [Huber1981, 4.5]: the integral of f'^2 / f; rounded to multiples of `quantum`, whose phase is
-  /// uniform, of (f(x + q) - f(x))^2 / (F(x + q) - F(x)) / q.
+  /// Fisher information of the location [Huber1981, 4.5]: the integral of f'^2 / f; rounded to multiples of `quantum`,
+  /// whose phase is uniform, of (f(x + q) - f(x))^2 / (F(x + q) - F(x)) / q.
   double information(double quantum = 0) const;
   /// Of a vector of n states with one common scale: its information matrix is this times the identity. No exponentials.
   double radialInformation(int n) const;

@@ -19,8 +19,8 @@ struct ErrorSummary {
 };
 ErrorSummary summarize(const std::vector<double>& errors);
 
-/// An average of normalised squared errors (NEES) or innovations (NIS), the 95 % band that it lies in when the covariances are right and
-/// the samples independent, and the fraction of single values inside their own 95 % interval.
+/// An average of normalised squared errors (NEES) or innovations (NIS), the 95 % band that it lies in when the
+/// covariances are right and the samples independent, and the fraction of single values inside their own 95 % interval.
 struct Consistency {
   double mean = 0, degrees = 0, lower = 0, upper = 0, inside = 0;
   std::size_t count = 0;
@@ -38,7 +38,8 @@ struct Detection {
 struct AuditTally {
   std::vector<double> nis;
   Detection detection;
-  /// `outlier` is the simulator's label of any of the rows, where there is one; nothing is known of the NIS where an estimator has none.
+  /// `outlier` is the simulator's label of any of the rows, where there is one; nothing is known of the NIS where an
+  /// estimator has none.
   void add(Verdict verdict, double least_weight, std::optional<double> normalised, std::optional<bool> outlier);
 };
 
@@ -47,7 +48,8 @@ struct Outage {
   double begin = 0, duration = 0, distance = 0, error_end = 0;
 };
 
-/// RMS position error over windows of one synthetic aperture, after removing mean and linear trend in each: what focusing feels.
+/// RMS position error over windows of one synthetic aperture, after removing mean and linear trend in each: what
+/// focusing feels.
 struct ApertureError {
   double time = 0, wavelength = 0;
   std::size_t windows = 0;

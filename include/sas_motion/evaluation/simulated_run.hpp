@@ -26,7 +26,8 @@ class SimulatedRun {
   Stamp step() const { return step_; }
   const std::vector<StateVector>& truth() const { return truth_; }
   const std::vector<LabelledMeasurement>& measurements() const { return measurements_; }
-  /// Of the whitened process noise of the step that led to each truth, over the good one [-]; empty where all of it is good.
+  /// Of the whitened process noise of the step that led to each truth, over the good one [-]; empty where all of it is
+  /// good.
   const std::vector<StateVector>& processVariance() const { return process_variance_; }
   /// The place of a stamp among the truths.
   std::size_t index(Stamp stamp) const { return static_cast<std::size_t>((stamp - Simulator::kStart) / step_); }

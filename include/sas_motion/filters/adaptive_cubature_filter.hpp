@@ -12,17 +12,20 @@
 
 namespace sas_motion {
 
-/// Where the weight of a doubtful row acts: on its noise, or on its reading, which moves to where it is believed. The same at a fixed point.
+/// Where the weight of a doubtful row acts: on its noise, or on its reading, which moves to where it is believed. The
+/// same at a fixed point.
 enum class Reweighting { Covariance, Observation };
 
-/// What of a row's normalised squared residual teaches the noise estimate: all; by its weight w all times w, w^2 (the pseudo-observation) or
-/// w^2 over what that is on average of good noise; or what good noise is likely to have made of it, by a mixture's posterior probability.
+/// What of a row's normalised squared residual teaches the noise estimate: all; by its weight w all times w, w^2 (the
+/// pseudo-observation) or w^2 over what that is on average of good noise; or what good noise is likely to have made of
+/// it, by a mixture's posterior probability.
 enum class NoiseIncrement { Raw, Weighted, Pseudo, Consistent, Mixture };
 
 struct AdaptiveCubatureOptions {
   bool adaptive = false;     ///< estimate the noise by variational Bayes; else believe the stated R
   std::optional<Loss> loss;  ///< re-weight rows by it; else none
-  double peak = 1;           ///< weight of a residual of 0: (nu + 1) / nu of Student's t, whose loss is Cauchy's with c = sqrt(nu)
+  double peak =
+      1;  ///< weight of a residual of 0: (nu + 1) / nu of Student's t, whose loss is Cauchy's with c = sqrt(nu)
   Reweighting reweighting = Reweighting::Covariance;
   NoiseIncrement increment = NoiseIncrement::Mixture;
   int iterations = 5;
@@ -33,7 +36,8 @@ struct AdaptiveCubatureOptions {
   bool calibrate = false;   ///< report the covariance that the influence of the readings has had, not the filter's own
 };
 
-/// A state, the noise of each channel over its stated variance, and two covariances: the filter's own, which weighs, and the one it reports.
+/// A state, the noise of each channel over its stated variance, and two covariances: the filter's own, which weighs,
+/// and the one it reports.
 template <int N, int M>
 struct AdaptiveBelief {
   Gaussian<N> state;
@@ -50,8 +54,9 @@ const Gaussian<N>& gaussian(const AdaptiveBelief<N, M>& belief) {
   return belief.state;
 }
 
-/// The cubature Kalman filter of constant parameters with either or both of a variational-Bayes noise estimate and M-estimation: CKF,
-/// C-VBCKF, C-HCKF and C-HVBCKF are its four settings. [ZhangTao, eq 12 to 28; Sarkka2013; Chang2013]
+/// The cubature Kalman filter of constant parameters with either or both of a variational-Bayes noise estimate and
+/// M-estimation: CKF, C-VBCKF, C-HCKF and C-HVBCKF are its four settings. [ZhangTao, eq 12 to 28; Sarkka2013;
+/// Chang2013]
 template <int N, int M>
 class AdaptiveCubatureFilter {
  public:
@@ -59,7 +64,9 @@ class AdaptiveCubatureFilter {
   using Options = AdaptiveCubatureOptions;
 
   explicit AdaptiveCubatureFilter(const Options& options)
-      : options_(options), consistency_(options.loss ? gaussianMeanSquaredInfluence(*options.loss) : 1), points_(cubaturePoints<N>()) {}
+      : options_(options),
+        consistency_(options.loss ? gaussianMeanSquaredInfluence(*options.loss) : 1),
+        points_(cubaturePoints<N>()) {}
 
   Belief predict(const Belief& belief, const Matrix<N>& Q) const {
     Belief prior = belief;
@@ -68,12 +75,12 @@ class AdaptiveCubatureFilter {
     return prior;
   }
 
-  /// The belief after reading z = h(x) + v with v of the stated variances, or some multiple of them. Rows where `present` is 0 are left out,
-  /// and where it is 1 they count; z must be finite and the variance positive in all. The report's weights are the rows', its S and NIS with the noise as
-  /// estimated.
+  /// The belief after reading z = h(x) + v with v of the stated variances, or some multiple of them. Rows where
+  /// `present` is 0 are left out, and where it is 1 they count; z must be finite and the variance positive in all. The
+  /// report's weights are the rows', its S and NIS with the noise as estimated.
   template <class Function, class Difference>
-  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Vector<M>& variance, const Vector<M>& present, const Function& h,
-                           const Difference& difference) const {
+  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Vector<M>& variance, const Vector<M>& present,
+                           const Function& h, const Difference& difference) const {
     Update<Belief, M> result;
     result.belief = prior;
     result.verdict = Verdict::Invalid;
@@ -81,7 +88,9 @@ class AdaptiveCubatureFilter {
     auto image = points_.template project<M>(own, h, difference);
     if (!image) return result;
     image->deviations = present.asDiagonal() * image->deviations;
-    const auto residual = [&](const Vector<M>& predicted) { return Vector<M>(difference(z, predicted).cwiseProduct(present)); };
+    const auto residual = [&](const Vector<M>& predicted) {
+      return Vector<M>(difference(z, predicted).cwiseProduct(present));
+    };
 
     Iterate iterate{own, options_.adaptive ? prior.noise.faded(options_.rho) : prior.noise, {}, {}, Vector<M>::Ones()};
     const VariationalNoise<M> faded = iterate.noise;
@@ -97,7 +106,8 @@ class AdaptiveCubatureFilter {
       if (step.verdict == Verdict::Invalid) return result;
       if (j == 0) result.innovation = step.innovation, result.S = step.S, result.nis = step.nis;
       const Vector<N> moved = step.belief.mean - iterate.belief.mean;
-      result.converged = (moved.array().abs() <= options_.tolerance * step.belief.covariance.diagonal().array().sqrt()).all();
+      result.converged =
+          (moved.array().abs() <= options_.tolerance * step.belief.covariance.diagonal().array().sqrt()).all();
       result.iterations = j + 1;
       iterate.belief = step.belief;
       if (options_.adaptive && !learnNoise(iterate, faded, variance, present, residual, h, difference)) return result;
@@ -128,21 +138,27 @@ class AdaptiveCubatureFilter {
   void reweigh(Iterate& iterate, const Vector<M>& variance, const Vector<M>& present) const {
     iterate.R = options_.adaptive ? Vector<M>(variance.cwiseProduct(iterate.noise.factor(options_.trend))) : variance;
     for (int row = 0; row < M; ++row)
-      iterate.weights(row) = options_.loss && present(row) > 0
-                                 ? std::max(kLeastWeight, options_.peak * options_.loss->weight(iterate.residual(row) / std::sqrt(iterate.R(row))))
-                                 : 1;
+      iterate.weights(row) =
+          options_.loss && present(row) > 0
+              ? std::max(kLeastWeight,
+                         options_.peak * options_.loss->weight(iterate.residual(row) / std::sqrt(iterate.R(row))))
+              : 1;
   }
 
   /// The noise estimate, from the posterior's points. [Sarkka2013, algorithm 2; with weights]
   template <class Residual, class Function, class Difference>
-  bool learnNoise(Iterate& iterate, const VariationalNoise<M>& faded, const Vector<M>& variance, const Vector<M>& present, const Residual& residual,
-                  const Function& h, const Difference& difference) const {
+  bool learnNoise(Iterate& iterate, const VariationalNoise<M>& faded, const Vector<M>& variance,
+                  const Vector<M>& present, const Residual& residual, const Function& h,
+                  const Difference& difference) const {
     const auto image = points_.template project<M>(iterate.belief, h, difference);
     if (!image) return false;
     iterate.residual = residual(image->mean);
-    const Vector<M> squares = iterate.residual.cwiseAbs2() + points_.template secondMoment<M, M>(image->deviations, image->deviations).diagonal();
+    const Vector<M> squares = iterate.residual.cwiseAbs2() +
+                              points_.template secondMoment<M, M>(image->deviations, image->deviations).diagonal();
     reweigh(iterate, variance, present);
-    iterate.noise = faded.with(squares.cwiseQuotient(variance).cwiseProduct(share(iterate.weights, squares.cwiseQuotient(iterate.R))), present, options_.clamp);
+    iterate.noise = faded.with(
+        squares.cwiseQuotient(variance).cwiseProduct(share(iterate.weights, squares.cwiseQuotient(iterate.R))), present,
+        options_.clamp);
     return true;
   }
 
@@ -157,17 +173,18 @@ class AdaptiveCubatureFilter {
     return options_.loss ? Vector<M>(normalised.unaryExpr(&goodShare)) : Vector<M>(Vector<M>::Ones());
   }
 
-  /// The share of a normalised square that teaches of the good noise, where one reading in ten is of noise ten times as wide: the expectation
-  /// of one over the noise's scale. Of good noise alone it is 4 % too low on average.
+  /// The share of a normalised square that teaches of the good noise, where one reading in ten is of noise ten times as
+  /// wide: the expectation of one over the noise's scale. Of good noise alone it is 4 % too low on average.
   static double goodShare(double square) {
     constexpr double kOdds = 0.1 / 0.9, kScale = 100;
     const double bad = kOdds / std::sqrt(kScale) * std::exp(0.5 * square * (1 - 1 / kScale));
     return std::isfinite(bad) ? (1 + bad / kScale) / (1 + bad) : 1 / kScale;
   }
 
-  /// Beside the filter's own covariance another follows its gains, with the noise that the influence of the readings let through on average
-  /// and the feedback that its slope gave: (I - K H) P (I - K H)^T + G V G^T.
-  void reportCovariance(const Belief& prior, const Image& image, const Iterate& iterate, const Vector<M>& present, Belief& posterior) const {
+  /// Beside the filter's own covariance another follows its gains, with the noise that the influence of the readings
+  /// let through on average and the feedback that its slope gave: (I - K H) P (I - K H)^T + G V G^T.
+  void reportCovariance(const Belief& prior, const Image& image, const Iterate& iterate, const Vector<M>& present,
+                        Belief& posterior) const {
     if (!options_.calibrate) {
       posterior.state.covariance = posterior.own;
       return;
@@ -178,13 +195,16 @@ class AdaptiveCubatureFilter {
     const Matrix<M> HPHt = points_.template secondMoment<M, M>(image.deviations, image.deviations);
     const Matrix<M, N> H = Eigen::LLT<Matrix<N>>(prior.own).solve(PHt).transpose();
     const auto gain = [&](const Vector<M>& weight) {
-      return Matrix<N, M>(Innovation<M>(HPHt + Matrix<M>(iterate.R.cwiseQuotient(weight).asDiagonal())).solve(PHt.transpose()).transpose());
+      return Matrix<N, M>(Innovation<M>(HPHt + Matrix<M>(iterate.R.cwiseQuotient(weight).asDiagonal()))
+                              .solve(PHt.transpose())
+                              .transpose());
     };
     const auto& mean = posterior.influence;
     const Matrix<N, M> K = gain(mean.slope), G = gain(mean.weight);
     const Matrix<N> left = Matrix<N>::Identity() - K * H;
     const Vector<M> noise = iterate.R.cwiseProduct(mean.square).cwiseQuotient(mean.weight.cwiseAbs2());
-    posterior.state.covariance = left * prior.state.covariance * left.transpose() + G * noise.asDiagonal() * G.transpose();
+    posterior.state.covariance =
+        left * prior.state.covariance * left.transpose() + G * noise.asDiagonal() * G.transpose();
     symmetrize(posterior.state.covariance);
   }
 
@@ -194,7 +214,8 @@ class AdaptiveCubatureFilter {
     const double weight = options_.loss ? options_.peak * options_.loss->weight(r) : 1;
     const double slope = options_.loss ? options_.peak * options_.loss->slope(r) : 1;
     if (!options_.adaptive) return {weight * r, slope, weight};
-    const double own = 2 * (1 + options_.trend) * (1 - options_.rho) * share(iterate.weights, iterate.residual.cwiseAbs2().cwiseQuotient(iterate.R))(row);
+    const double own = 2 * (1 + options_.trend) * (1 - options_.rho) *
+                       share(iterate.weights, iterate.residual.cwiseAbs2().cwiseQuotient(iterate.R))(row);
     return {weight * r, slope - own * weight * r * r, weight};
   }
 

@@ -9,8 +9,8 @@
 
 namespace sas_motion {
 
-/// One way in which the last few epochs may have gone, as a Gaussian about the bank's mean, with what it thinks of each channel. A channel
-/// is one row of one sensor.
+/// One way in which the last few epochs may have gone, as a Gaussian about the bank's mean, with what it thinks of each
+/// channel. A channel is one row of one sensor.
 template <int N>
 struct BankHypothesis {
   static constexpr int kChannels = 8;
@@ -59,31 +59,33 @@ HypothesisWeights hypothesisWeights(const BankBelief<N>& belief) {
   return weights;
 }
 
-/// Kalman filter that keeps several explanations open: a bank of Gaussians, told apart by when the process last jumped, each with
-/// Gaussian scale-mixture measurement noise [Sorenson1971; Masreliez1975].
+/// Kalman filter that keeps several explanations open: a bank of Gaussians, told apart by when the process last jumped,
+/// each with Gaussian scale-mixture measurement noise [Sorenson1971; Masreliez1975].
 ///
-/// One reading cannot tell an outlier from a manoeuvre; the next few can. Time is cut into epochs. In each a new hypothesis is opened, that
-/// the process has just jumped (its noise `jump_scale` times as large); after eight epochs it is folded into the hypothesis of no jump.
-/// Under each hypothesis a reading's mixture is collapsed in closed form: narrow scales inform, wide ones only explain it away. Outliers of
-/// one sensor come together and stay: where another row of it was just doubted too (or it has one row), the next reading is doubted sooner,
-/// and expected to be wrong by as much, for up to `burst` epochs. Where readings of a row are doubted that agree with each other, and its
-/// sister rows do not share the doubt (or have for longer than `burst`), the prediction is what is wrong: after `patience` epochs a hypothesis is opened that
-/// reaches them. How often jumps and outliers come is learned, starting from the options. R is diagonal.
+/// One reading cannot tell an outlier from a manoeuvre; the next few can. Time is cut into epochs. In each a new
+/// hypothesis is opened, that the process has just jumped (its noise `jump_scale` times as large); after eight epochs
+/// it is folded into the hypothesis of no jump. Under each hypothesis a reading's mixture is collapsed in closed form:
+/// narrow scales inform, wide ones only explain it away. Outliers of one sensor come together and stay: where another
+/// row of it was just doubted too (or it has one row), the next reading is doubted sooner, and expected to be wrong by
+/// as much, for up to `burst` epochs. Where readings of a row are doubted that agree with each other, and its sister
+/// rows do not share the doubt (or have for longer than `burst`), the prediction is what is wrong: after `patience`
+/// epochs a hypothesis is opened that reaches them. How often jumps and outliers come is learned, starting from the
+/// options. R is diagonal.
 template <int N>
 class BankKalmanFilter {
  public:
   using Belief = BankBelief<N>;
 
   struct Options {
-    double epoch = 1;                                                 ///< how long a jump takes to show [s]
-    double jump_probability = 0.02;                                   ///< an epoch, before anything is learned
-    double jump_scale = 100;                                          ///< process noise of a jump over Q [-]
-    std::array<double, 4> scales{1, 9, 100, 2500};                    ///< variance over R [-]; the last two are outliers
+    double epoch = 1;                               ///< how long a jump takes to show [s]
+    double jump_probability = 0.02;                 ///< an epoch, before anything is learned
+    double jump_scale = 100;                        ///< process noise of a jump over Q [-]
+    std::array<double, 4> scales{1, 9, 100, 2500};  ///< variance over R [-]; the last two are outliers
     std::array<double, 4> probabilities{0.871, 0.079, 0.025, 0.025};  ///< of the scales, before anything is learned
-    double sticky = 0.4;                                              ///< probability that an outlier follows an outlier
-    double repeat = 0.4;                                              ///< and is wrong by as much
-    double burst = 11;                                                ///< that long at most [epochs]
-    double patience = 1.5;                                            ///< with agreeing readings of a row whose sisters share no doubt [epochs]
+    double sticky = 0.4;    ///< probability that an outlier follows an outlier
+    double repeat = 0.4;    ///< and is wrong by as much
+    double burst = 11;      ///< that long at most [epochs]
+    double patience = 1.5;  ///< with agreeing readings of a row whose sisters share no doubt [epochs]
   };
 
   /// Throws std::invalid_argument where an option is out of its range.

@@ -8,8 +8,8 @@
 
 namespace sas_motion {
 
-/// What a row of a sensor has taught of its noise, as its influence shows it: running averages that start from good readings of which
-/// nothing is clipped. All are 1 or 0 there, whatever the leverage.
+/// What a row of a sensor has taught of its noise, as its influence shows it: running averages that start from good
+/// readings of which nothing is clipped. All are 1 or 0 there, whatever the leverage.
 struct LearnedInfluence {
   double readings = 0;  ///< that the averages rest on
   double believed = 1;  ///< square of the influence, the share that was believed
@@ -45,9 +45,9 @@ void addCovariance(CalibratedBelief<N>& belief, const Matrix<N>& more) {
 
 /// A robust filter whose covariance says how large its errors are [Huber1981; Masreliez1977; Stein1981].
 ///
-/// Means and gains are those of the filter to the last bit. Beside its own covariance a second one follows the same gains with the noise that
-/// they let through, by what the influence of the channel's readings has been on average. R is diagonal.
-/// The filter has `calibrates()`, whether it wants this, and `influence(residual, variance)`.
+/// Means and gains are those of the filter to the last bit. Beside its own covariance a second one follows the same
+/// gains with the noise that they let through, by what the influence of the channel's readings has been on average. R
+/// is diagonal. The filter has `calibrates()`, whether it wants this, and `influence(residual, variance)`.
 template <class Filter, int N>
 class CalibratedFilter {
  public:

@@ -11,7 +11,8 @@
 
 namespace sas_motion {
 
-/// S^{-1} of a small symmetric positive definite matrix, by a division where it is 1x1 and by a checked Cholesky where it is larger.
+/// S^{-1} of a small symmetric positive definite matrix, by a division where it is 1x1 and by a checked Cholesky where
+/// it is larger.
 template <int M>
 class Innovation {
  public:
@@ -55,10 +56,11 @@ struct Projection {
   Matrix<M> HPHt;
 };
 
-/// x^+ and P^+ = (I - K H) P (I - K H)^T + K R K^T (Joseph) for S = H P H^T + R, written as rank-M updates of P so that no N x N
-/// product is formed.
+/// x^+ and P^+ = (I - K H) P (I - K H)^T + K R K^T (Joseph) for S = H P H^T + R, written as rank-M updates of P so that
+/// no N x N product is formed.
 template <int N, int M>
-Gaussian<N> condition(const Gaussian<N>& prior, const Projection<N, M>& projection, const Matrix<M>& R, const Innovation<M>& S, const Vector<M>& innovation) {
+Gaussian<N> condition(const Gaussian<N>& prior, const Projection<N, M>& projection, const Matrix<M>& R,
+                      const Innovation<M>& S, const Vector<M>& innovation) {
   const Matrix<N, M> K = S.solve(projection.PHt.transpose()).transpose();
   Gaussian<N> posterior;
   posterior.mean.noalias() = prior.mean + K * innovation;
@@ -71,7 +73,8 @@ Gaussian<N> condition(const Gaussian<N>& prior, const Projection<N, M>& projecti
   return posterior;
 }
 
-/// The report of an update before anything is fused: the prior with innovation, S and NIS; Invalid where z is no measurement.
+/// The report of an update before anything is fused: the prior with innovation, S and NIS; Invalid where z is no
+/// measurement.
 template <class Belief, int N, int M>
 Update<Belief, M> examine(const Belief& prior, const LinearMeasurement<N, M>& z) {
   Update<Belief, M> result;
@@ -84,9 +87,9 @@ Update<Belief, M> examine(const Belief& prior, const LinearMeasurement<N, M>& z)
   return result;
 }
 
-/// What makes P reach `variance` further in row h: once with the states that go with it, for a drift, and once on its own, for a jump of the
-/// sensor's. With the first alone a jump of the position would be taken for a current of tens of metres a second. Zero where there is
-/// nothing to add.
+/// What makes P reach `variance` further in row h: once with the states that go with it, for a drift, and once on its
+/// own, for a jump of the sensor's. With the first alone a jump of the position would be taken for a current of tens of
+/// metres a second. Zero where there is nothing to add.
 template <int N>
 Matrix<N> widening(const Matrix<N>& P, const Vector<N>& h, double variance) {
   const Vector<N> drift = P * h / h.dot(P * h), jump = h / h.squaredNorm();

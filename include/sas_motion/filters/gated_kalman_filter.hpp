@@ -7,8 +7,8 @@
 
 namespace sas_motion {
 
-/// Kalman filter that leaves out measurements whose NIS fails a chi-squared gate. Alone it locks out after a jump of the process; inside a
-/// ReacquiringFilter it comes back.
+/// Kalman filter that leaves out measurements whose NIS fails a chi-squared gate. Alone it locks out after a jump of
+/// the process; inside a ReacquiringFilter it comes back.
 template <int N>
 class GatedKalmanFilter {
  public:
@@ -21,7 +21,9 @@ class GatedKalmanFilter {
   /// Throws std::invalid_argument where an option is out of its range.
   explicit GatedKalmanFilter(const Options& options);
 
-  Belief predict(const Belief& belief, const Transition<N>& transition) const { return predictGaussian(belief, transition); }
+  Belief predict(const Belief& belief, const Transition<N>& transition) const {
+    return predictGaussian(belief, transition);
+  }
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;

@@ -32,21 +32,22 @@ struct GaussianBlock {
   Matrix<N> own(const Matrix<N>& all) const { return states.asDiagonal() * all * states.asDiagonal(); }
   /// Weights relative to their sum, which they then have as logarithms; weights beyond reach are zero.
   std::vector<double> normalize();
-  /// Merges hypotheses whose squared distance a state to a heavier one is below `merge`, and keeps the `count` heaviest [Salmond1990].
+  /// Merges hypotheses whose squared distance a state to a heavier one is below `merge`, and keeps the `count` heaviest
+  /// [Salmond1990].
   void reduce(std::size_t count, double merge);
 };
 
-/// A belief that is a sum of Gaussians for each block of states that nothing has coupled yet, with its mean and covariance. Independent
-/// blocks of 48 hypotheses say as much as one of 48 times 48.
+/// A belief that is a sum of Gaussians for each block of states that nothing has coupled yet, with its mean and
+/// covariance. Independent blocks of 48 hypotheses say as much as one of 48 times 48.
 template <int N>
 struct GaussianSum {
   static constexpr int kRows = 4;  ///< of a source
   static constexpr std::size_t kChannels = kRows * kMaxSources;
 
   Gaussian<N> summary;
-  std::vector<GaussianBlock<N>> blocks{};                    ///< none: the summary alone
-  bool epoch_over = true;                                    ///< the next prediction begins an epoch of the process noise
-  double epoch_end = NAN;                                    ///< [s]
+  std::vector<GaussianBlock<N>> blocks{};  ///< none: the summary alone
+  bool epoch_over = true;                  ///< the next prediction begins an epoch of the process noise
+  double epoch_end = NAN;                  ///< [s]
   std::array<std::optional<double>, kChannels> mode_time{};  ///< when a channel's mode was last asked for [s]
 
   /// Where there are no blocks yet, divides the summary into the blocks that its covariance does not couple.

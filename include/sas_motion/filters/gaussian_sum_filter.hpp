@@ -20,35 +20,38 @@ struct NoiseTerm {
 
 /// Spells in which a row is biased: they begin `rate` times a second and last `length` seconds on average.
 struct BiasMode {
-  double rate = 0;                                                 ///< 0: there are none [1/s]
-  double length = 1;                                               ///< [s]
-  std::optional<double> bias{};                                    ///< in standard deviations; unknown: the row then says nothing [-]
-  bool common = false;                                             ///< all rows at once, or each on its own
+  double rate = 0;               ///< 0: there are none [1/s]
+  double length = 1;             ///< [s]
+  std::optional<double> bias{};  ///< in standard deviations; unknown: the row then says nothing [-]
+  bool common = false;           ///< all rows at once, or each on its own
   std::uint32_t rows = std::numeric_limits<std::uint32_t>::max();  ///< which have spells: bit 4 source + row
 };
 
 /// What the noise is like, and how much of its history to follow.
 struct GaussianSumOptions {
   std::vector<NoiseTerm> measurement = std::vector<NoiseTerm>(1);  ///< of each row
-  std::vector<NoiseTerm> process = std::vector<NoiseTerm>(1);      ///< variances over Q, of all states together; without means
-  double epoch = 0;                                                ///< for which a process term holds; 0: from one update to the next prediction's [s]
-  double persistence = 0;                                          ///< probability that the next epoch keeps the term instead of drawing anew [-]
+  std::vector<NoiseTerm> process =
+      std::vector<NoiseTerm>(1);  ///< variances over Q, of all states together; without means
+  double epoch = 0;               ///< for which a process term holds; 0: from one update to the next prediction's [s]
+  double persistence = 0;         ///< probability that the next epoch keeps the term instead of drawing anew [-]
   BiasMode mode;
   std::size_t hypotheses = 48;  ///< kept after an update
   std::size_t branches = 160;   ///< followed inside an update
-  double merge = 0.1;  ///< squared distance a state below which two hypotheses become one: in standard deviations, and of the logarithms of variances [-]
+  double merge = 0.1;  ///< squared distance a state below which two hypotheses become one: in standard deviations, and
+                       ///< of the logarithms of variances [-]
 };
 
 template <int N>
 struct GaussianSumRow;
 
-/// The Bayes filter of known, non-Gaussian noise as far as it can be computed: a reference of what the best causal estimator reaches.
+/// The Bayes filter of known, non-Gaussian noise as far as it can be computed: a reference of what the best causal
+/// estimator reaches.
 ///
-/// Every Gaussian of every noise law makes a branch: a Kalman filter that assumes it. The heaviest are kept, near ones merged
-/// [Sorenson1971]. States that nothing couples (the start, the motion, a row; a scale of the process noise or a mode of several rows) are
-/// followed apart. The scale of the process noise branches at the first prediction of an epoch; an epoch ends with the first update at or
-/// after a multiple of its length. A mode may be on from the start. Rows are fused one by one, R is diagonal. With one term each this is
-/// the Kalman filter.
+/// Every Gaussian of every noise law makes a branch: a Kalman filter that assumes it. The heaviest are kept, near ones
+/// merged [Sorenson1971]. States that nothing couples (the start, the motion, a row; a scale of the process noise or a
+/// mode of several rows) are followed apart. The scale of the process noise branches at the first prediction of an
+/// epoch; an epoch ends with the first update at or after a multiple of its length. A mode may be on from the start.
+/// Rows are fused one by one, R is diagonal. With one term each this is the Kalman filter.
 template <int N>
 class GaussianSumFilter {
  public:

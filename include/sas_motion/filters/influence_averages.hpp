@@ -9,8 +9,8 @@
 
 namespace sas_motion {
 
-/// Running averages of what each row's readings have had for influence: they begin with good readings of which nothing is clipped. The
-/// variance of an M-estimate is that of its influence over its mean slope, squared. [Huber1981, 3.2]
+/// Running averages of what each row's readings have had for influence: they begin with good readings of which nothing
+/// is clipped. The variance of an M-estimate is that of its influence over its mean slope, squared. [Huber1981, 3.2]
 template <int M>
 struct InfluenceAverages {
   Vector<M> readings = Vector<M>::Constant(kPrior);  ///< that the averages rest on

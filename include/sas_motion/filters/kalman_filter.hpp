@@ -17,7 +17,9 @@ class KalmanFilter {
  public:
   using Belief = Gaussian<N>;
 
-  Belief predict(const Belief& belief, const Transition<N>& transition) const { return predictGaussian(belief, transition); }
+  Belief predict(const Belief& belief, const Transition<N>& transition) const {
+    return predictGaussian(belief, transition);
+  }
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;

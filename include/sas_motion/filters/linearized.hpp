@@ -6,7 +6,8 @@
 
 namespace sas_motion {
 
-/// What a motion model says of one time step, about the belief's mean x: f(x), F = df/dx and the process noise covariance Q.
+/// What a motion model says of one time step, about the belief's mean x: f(x), F = df/dx and the process noise
+/// covariance Q.
 template <int N>
 struct Transition {
   Vector<N> mean;
@@ -14,8 +15,8 @@ struct Transition {
   Matrix<N> Q;
 };
 
-/// What a sensor model says of one measurement z, about the prior mean x: the innovation z - h(x) with angles wrapped, H = dh/dx, and
-/// the covariance R of the good (uncontaminated) noise.
+/// What a sensor model says of one measurement z, about the prior mean x: the innovation z - h(x) with angles wrapped,
+/// H = dh/dx, and the covariance R of the good (uncontaminated) noise.
 template <int N, int M>
 struct LinearMeasurement {
   static constexpr int kRows = M;

@@ -10,10 +10,10 @@ namespace sas_motion {
 
 /// Kalman filter with Gaussian scale-mixture measurement noise, sum p_j N(0, s_j R) in every row.
 ///
-/// The posterior, a mixture of as many Gaussians as there are scales, is collapsed to its mean and covariance row by row, in closed form:
-/// one rank-one update, no iteration [Masreliez1975 for the score-function form; Sorenson1971 for Gaussian sums]. A reading is judged
-/// against prediction and noise together, and the doubt about it stays in the covariance. R is diagonal. With one scale of 1 this is the
-/// Kalman filter.
+/// The posterior, a mixture of as many Gaussians as there are scales, is collapsed to its mean and covariance row by
+/// row, in closed form: one rank-one update, no iteration [Masreliez1975 for the score-function form; Sorenson1971 for
+/// Gaussian sums]. A reading is judged against prediction and noise together, and the doubt about it stays in the
+/// covariance. R is diagonal. With one scale of 1 this is the Kalman filter.
 template <int N>
 class MixtureKalmanFilter {
  public:
@@ -28,13 +28,16 @@ class MixtureKalmanFilter {
   /// Throws std::invalid_argument where a scale is not positive, a probability negative, or all probabilities are zero.
   explicit MixtureKalmanFilter(const Options& options);
 
-  Belief predict(const Belief& belief, const Transition<N>& transition) const { return predictGaussian(belief, transition); }
+  Belief predict(const Belief& belief, const Transition<N>& transition) const {
+    return predictGaussian(belief, transition);
+  }
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
 
  private:
-  /// Posterior probabilities of the scales for an innovation d with predicted variance v and noise r, as sums over 1 / S_j.
+  /// Posterior probabilities of the scales for an innovation d with predicted variance v and noise r, as sums over 1 /
+  /// S_j.
   struct Collapse {
     double inverse;          ///< E[1 / S]
     double inverse_squared;  ///< E[1 / S^2]

@@ -34,10 +34,11 @@ const auto& gaussian(const WatchedBelief<Belief>& belief) {
 
 /// Any filter that leaves measurements out, with a rule to come back.
 ///
-/// A filter that trusts its prediction locks out after a jump, or after an outage in which it drifted further than it thought: every good
-/// measurement then looks like an outlier. So once a row of a sensor has been down-weighted or rejected for longer than `reset_after`, and
-/// its readings agree with each other, as scattered outliers do not, the covariance grows in that row until the latest
-/// innovation is one of its standard deviations, and the measurement is fused anew.
+/// A filter that trusts its prediction locks out after a jump, or after an outage in which it drifted further than it
+/// thought: every good measurement then looks like an outlier. So once a row of a sensor has been down-weighted or
+/// rejected for longer than `reset_after`, and its readings agree with each other, as scattered outliers do not, the
+/// covariance grows in that row until the latest innovation is one of its standard deviations, and the measurement is
+/// fused anew.
 template <class Filter, int N>
 class ReacquiringFilter {
  public:
@@ -45,10 +46,13 @@ class ReacquiringFilter {
 
   /// `reset_after` in seconds; throws std::invalid_argument where it is not positive.
   ReacquiringFilter(const Filter& filter, double reset_after) : filter_(filter), reset_after_(reset_after) {
-    if (!(reset_after > 0)) throw std::invalid_argument("reset_after is " + std::to_string(reset_after) + " but must be positive");
+    if (!(reset_after > 0))
+      throw std::invalid_argument("reset_after is " + std::to_string(reset_after) + " but must be positive");
   }
 
-  Belief predict(const Belief& belief, const Transition<N>& transition) const { return {filter_.predict(belief.state, transition), belief.disbelief}; }
+  Belief predict(const Belief& belief, const Transition<N>& transition) const {
+    return {filter_.predict(belief.state, transition), belief.disbelief};
+  }
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
@@ -66,7 +70,8 @@ class ReacquiringFilter {
       reacquire = true;
     }
     if (reacquire) inner = filter_.update(widened, z);
-    return {{inner.belief, disbelief}, inner.innovation, inner.S, inner.nis, inner.weights, inner.iterations, inner.converged, inner.verdict};
+    return {{inner.belief, disbelief}, inner.innovation, inner.S,      inner.nis, inner.weights,
+            inner.iterations,          inner.converged,  inner.verdict};
   }
 
  private:
@@ -82,13 +87,15 @@ class ReacquiringFilter {
     ++doubt.count;
     doubt.agreements += agrees;
     doubt.last_innovation = innovation;
-    return agrees && time - doubt.since > reset_after_ && doubt.count >= kFewest && doubt.agreements >= kFewestAgreements;
+    return agrees && time - doubt.since > reset_after_ && doubt.count >= kFewest &&
+           doubt.agreements >= kFewestAgreements;
   }
 
   Filter filter_;
   double reset_after_;
 
-  static constexpr double kAgreement = 3;  // two readings agree when they differ by less than so many standard deviations
+  static constexpr double kAgreement =
+      3;  // two readings agree when they differ by less than so many standard deviations
   static constexpr int kFewest = 10;
   static constexpr int kFewestAgreements = 5;
 };

@@ -9,9 +9,10 @@ namespace sas_motion {
 
 /// Kalman filter by M-estimation [Zhu2007, eq 11-19; Cipra1991].
 ///
-/// Minimises sum rho1(P^{-1/2}(x^- - x)) + sum rho2(R^{-1/2}(z - H x)) (15) by iteratively re-weighted least squares from the prediction.
-/// One iteration takes the weights at the prediction, as the paper does; there the process residuals are zero, so W1 = I whatever
-/// `robustify_process` says. Redescending losses start from Huber's answer, found with as many iterations. P^{1/2} is the symmetric root.
+/// Minimises sum rho1(P^{-1/2}(x^- - x)) + sum rho2(R^{-1/2}(z - H x)) (15) by iteratively re-weighted least squares
+/// from the prediction. One iteration takes the weights at the prediction, as the paper does; there the process
+/// residuals are zero, so W1 = I whatever `robustify_process` says. Redescending losses start from Huber's answer,
+/// found with as many iterations. P^{1/2} is the symmetric root.
 template <int N>
 class RobustKalmanFilter {
  public:
@@ -22,13 +23,16 @@ class RobustKalmanFilter {
     int max_iterations = 10;         ///< 1 is the paper's single pass
     double tolerance = 1e-6;         ///< fixed point: no weight moves more [-]
     bool robustify_process = false;  ///< let W1 act, with the same loss
-    bool calibrate = true;           ///< in a CalibratedFilter, unless W1 acts or a single pass is made: let the covariance say how large the errors are
+    bool calibrate = true;  ///< in a CalibratedFilter, unless W1 acts or a single pass is made: let the covariance say
+                            ///< how large the errors are
   };
 
   /// Throws std::invalid_argument where max_iterations < 1 or tolerance is not positive.
   explicit RobustKalmanFilter(const Options& options);
 
-  Belief predict(const Belief& belief, const Transition<N>& transition) const { return predictGaussian(belief, transition); }
+  Belief predict(const Belief& belief, const Transition<N>& transition) const {
+    return predictGaussian(belief, transition);
+  }
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;

@@ -23,10 +23,11 @@ struct SigmaImage {
   Matrix<M, Count> deviations;  ///< of the function at each point from it
 };
 
-/// The mean of where points landed; they become deviations from it. It is formed of differences from one of them, or another near them, so that
-/// points on both sides of +-pi average rightly.
+/// The mean of where points landed; they become deviations from it. It is formed of differences from one of them, or
+/// another near them, so that points on both sides of +-pi average rightly.
 template <int M, int N, int Count, class Difference>
-Vector<M> average(const SigmaPoints<N, Count>& points, const Vector<M>& reference, Matrix<M, Count>& landed, const Difference& difference) {
+Vector<M> average(const SigmaPoints<N, Count>& points, const Vector<M>& reference, Matrix<M, Count>& landed,
+                  const Difference& difference) {
   Matrix<M, Count> offsets;
   for (int i = 0; i < Count; ++i) offsets.col(i) = difference(Vector<M>(landed.col(i)), reference);
   const Vector<M> mean = reference + offsets * points.mean_weights;
@@ -36,8 +37,8 @@ Vector<M> average(const SigmaPoints<N, Count>& points, const Vector<M>& referenc
 
 /// Sends x + dX through `function`. The reference of the mean is the image of x where that is a point.
 template <int M, int N, int Count, class Function, class Difference>
-SigmaImage<N, M, Count> imageOf(const SigmaPoints<N, Count>& points, const Vector<N>& x, const Matrix<N, Count>& dX, const Function& function,
-                                const Difference& difference) {
+SigmaImage<N, M, Count> imageOf(const SigmaPoints<N, Count>& points, const Vector<N>& x, const Matrix<N, Count>& dX,
+                                const Function& function, const Difference& difference) {
   SigmaImage<N, M, Count> image{dX, {}, {}};
   for (int i = 0; i < Count; ++i) image.deviations.col(i) = function(Vector<N>(x + dX.col(i)));
   const bool centred = points.offsets.col(0).isZero(0);
@@ -46,11 +47,13 @@ SigmaImage<N, M, Count> imageOf(const SigmaPoints<N, Count>& points, const Vecto
   return image;
 }
 
-/// The belief after reading z = h(x) + v by a filter that projects the prior's points and conditions on where they land. The innovation is z less
-/// the mean of h over the prior, not h of its mean; `noise` is what the filter's condition() takes.
+/// The belief after reading z = h(x) + v by a filter that projects the prior's points and conditions on where they
+/// land. The innovation is z less the mean of h over the prior, not h of its mean; `noise` is what the filter's
+/// condition() takes.
 template <int M, class Filter, class Function, class Difference>
-Update<typename Filter::Belief, M> projectAndCondition(const Filter& filter, const typename Filter::Belief& prior, const Vector<M>& z, const Function& h,
-                                                       const Matrix<M>& noise, const Difference& difference) {
+Update<typename Filter::Belief, M> projectAndCondition(const Filter& filter, const typename Filter::Belief& prior,
+                                                       const Vector<M>& z, const Function& h, const Matrix<M>& noise,
+                                                       const Difference& difference) {
   if (const auto image = filter.template project<M>(prior, h, difference))
     return filter.template condition<M>(prior, *image, difference(z, image->mean), noise);
   Update<typename Filter::Belief, M> result;

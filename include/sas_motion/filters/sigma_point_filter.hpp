@@ -9,11 +9,12 @@
 
 namespace sas_motion {
 
-/// A Gaussian filter that needs no Jacobians: it sends points through f and h and fits a Gaussian to where they land. With cubature points
-/// this is the CKF [Arasaratnam2009], with unscented points the UKF [Julier2004].
+/// A Gaussian filter that needs no Jacobians: it sends points through f and h and fits a Gaussian to where they land.
+/// With cubature points this is the CKF [Arasaratnam2009], with unscented points the UKF [Julier2004].
 ///
-/// f and h take and return fixed-size vectors. `difference(y, x)` is y - x with angles wrapped; means are formed of differences from the
-/// image of the mean, so that points on both sides of +-pi average rightly. Noise is additive and the points are drawn anew for every update.
+/// f and h take and return fixed-size vectors. `difference(y, x)` is y - x with angles wrapped; means are formed of
+/// differences from the image of the mean, so that points on both sides of +-pi average rightly. Noise is additive and
+/// the points are drawn anew for every update.
 template <int N, int Count>
 class SigmaPointFilter {
  public:
@@ -21,9 +22,11 @@ class SigmaPointFilter {
 
   explicit SigmaPointFilter(const SigmaPoints<N, Count>& points) : points_(points) {}
 
-  /// The belief after x' = f(x) + w, w ~ N(0, Q), or nothing where a covariance is not positive definite or a value not finite.
+  /// The belief after x' = f(x) + w, w ~ N(0, Q), or nothing where a covariance is not positive definite or a value not
+  /// finite.
   template <class Function, class Difference = PlainDifference>
-  std::optional<Belief> predict(const Belief& belief, const Function& f, const Matrix<N>& Q, const Difference& difference = {}) const {
+  std::optional<Belief> predict(const Belief& belief, const Function& f, const Matrix<N>& Q,
+                                const Difference& difference = {}) const {
     const auto L = choleskyLower<N>(belief.covariance);
     if (!L) return std::nullopt;
     const auto image = imageOf<N>(points_, belief.mean, Matrix<N, Count>(*L * points_.offsets), f, difference);
@@ -44,9 +47,11 @@ class SigmaPointFilter {
     return imageOf<M>(points_, prior.mean, Matrix<N, Count>(*L * points_.offsets), h, difference);
   }
 
-  /// Fuses an innovation, z less the image's mean, with noise covariance R. The report holds the innovation, its S and NIS.
+  /// Fuses an innovation, z less the image's mean, with noise covariance R. The report holds the innovation, its S and
+  /// NIS.
   template <int M>
-  Update<Belief, M> condition(const Belief& prior, const Image<M>& image, const Vector<M>& innovation, const Matrix<M>& R) const {
+  Update<Belief, M> condition(const Belief& prior, const Image<M>& image, const Vector<M>& innovation,
+                              const Matrix<M>& R) const {
     Update<Belief, M> result;
     result.belief = prior;
     result.verdict = Verdict::Invalid;
@@ -58,7 +63,8 @@ class SigmaPointFilter {
     if (!S.valid() || !std::isfinite(result.nis)) return result;
 
     const Matrix<N, M> K = S.solve(secondMoment<M, N>(image.deviations, image.dX)).transpose();
-    // P - K S K^T as a sum of squares, as Joseph's form is for a linear h: with weights that are not negative it cannot lose its sign.
+    // P - K S K^T as a sum of squares, as Joseph's form is for a linear h: with weights that are not negative it cannot
+    // lose its sign.
     const Matrix<N, Count> residuals = image.dX - K * image.deviations;
     Belief posterior{prior.mean + K * innovation, secondMoment<N, N>(residuals, residuals) + K * R * K.transpose()};
     symmetrize(posterior.covariance);
@@ -68,9 +74,11 @@ class SigmaPointFilter {
     return result;
   }
 
-  /// The belief after reading z = h(x) + v, v ~ N(0, R). The innovation is z less the mean of h over the prior, not h of its mean.
+  /// The belief after reading z = h(x) + v, v ~ N(0, R). The innovation is z less the mean of h over the prior, not h
+  /// of its mean.
   template <int M, class Function, class Difference = PlainDifference>
-  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) const {
+  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R,
+                           const Difference& difference = {}) const {
     return projectAndCondition<M>(*this, prior, z, h, R, difference);
   }
 

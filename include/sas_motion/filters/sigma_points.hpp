@@ -10,7 +10,8 @@
 
 namespace sas_motion {
 
-/// Points that stand for a standard normal N-vector: their weighted mean is 0 and their weighted covariance the identity.
+/// Points that stand for a standard normal N-vector: their weighted mean is 0 and their weighted covariance the
+/// identity.
 template <int N, int Count>
 struct SigmaPoints {
   Matrix<N, Count> offsets;          ///< xi, a point each column; x + L xi are the points of N(x, L L^T)
@@ -18,7 +19,8 @@ struct SigmaPoints {
   Vector<Count> covariance_weights;  ///< of outer products about the mean
 };
 
-/// The 2N points of the third-degree spherical-radial cubature rule: +-sqrt(N) along every axis, all of the same weight. [Arasaratnam2009]
+/// The 2N points of the third-degree spherical-radial cubature rule: +-sqrt(N) along every axis, all of the same
+/// weight. [Arasaratnam2009]
 template <int N>
 SigmaPoints<N, 2 * N> cubaturePoints() {
   SigmaPoints<N, 2 * N> points;
@@ -35,14 +37,17 @@ struct UnscentedOptions {
   double kappa = 0;  ///< [-]
 };
 
-/// The mean and 2N points +-alpha sqrt(N + kappa) along every axis. Throws std::invalid_argument where the spread is not positive. [Merwe2004]
+/// The mean and 2N points +-alpha sqrt(N + kappa) along every axis. Throws std::invalid_argument where the spread is
+/// not positive. [Merwe2004]
 template <int N>
 SigmaPoints<N, 2 * N + 1> unscentedPoints(const UnscentedOptions& options) {
   const double spread = options.alpha * options.alpha * (N + options.kappa);  // n + lambda
   if (!(spread > 0) || !std::isfinite(spread) || !std::isfinite(options.beta))
-    throw std::invalid_argument("alpha^2 (n + kappa) is " + std::to_string(spread) + " but must be positive, and beta finite");
+    throw std::invalid_argument("alpha^2 (n + kappa) is " + std::to_string(spread) +
+                                " but must be positive, and beta finite");
   SigmaPoints<N, 2 * N + 1> points;
-  points.offsets << Vector<N>::Zero(), std::sqrt(spread) * Matrix<N>::Identity(), -std::sqrt(spread) * Matrix<N>::Identity();
+  points.offsets << Vector<N>::Zero(), std::sqrt(spread) * Matrix<N>::Identity(),
+      -std::sqrt(spread) * Matrix<N>::Identity();
   points.mean_weights.setConstant(0.5 / spread);
   points.mean_weights(0) = 1 - N / spread;
   points.covariance_weights = points.mean_weights;
@@ -60,7 +65,8 @@ Matrix<N, Count> spread(const SigmaPoints<N, Count>& points, const Matrix<N>& L)
   return L * points.offsets;
 }
 
-/// The same in N^2 operations: a corner of the simplex has -c in all dimensions after its own, and its own is one column of L.
+/// The same in N^2 operations: a corner of the simplex has -c in all dimensions after its own, and its own is one
+/// column of L.
 template <int N>
 Matrix<N, N + 2> spread(const SimplexPoints<N>& points, const Matrix<N>& L) {
   Matrix<N, N + 2> corners;
@@ -75,11 +81,14 @@ Matrix<N, N + 2> spread(const SimplexPoints<N>& points, const Matrix<N>& L) {
   return corners;
 }
 
-/// The N + 2 points of the spherical simplex: one at the mean, with weight W0 in [0, 1), and N + 1 at the corners of a simplex about it, sqrt(N / (1 - W0))
-/// away. About half as many as the unscented ones, right to the second degree. Throws std::invalid_argument for another W0. [Julier2003]
+/// The N + 2 points of the spherical simplex: one at the mean, with weight W0 in [0, 1), and N + 1 at the corners of a
+/// simplex about it, sqrt(N / (1 - W0)) away. About half as many as the unscented ones, right to the second degree.
+/// Throws std::invalid_argument for another W0. [Julier2003]
 template <int N>
 SimplexPoints<N> simplexPoints(double W0) {
-  if (!(W0 >= 0 && W0 < 1)) throw std::invalid_argument("the weight of the simplex's centre is " + std::to_string(W0) + " but must be at least 0 and below 1");
+  if (!(W0 >= 0 && W0 < 1))
+    throw std::invalid_argument("the weight of the simplex's centre is " + std::to_string(W0) +
+                                " but must be at least 0 and below 1");
   const double W1 = (1 - W0) / (N + 1);
   SimplexPoints<N> points;
   points.mean_weights.setConstant(W1);

@@ -11,11 +11,13 @@
 
 namespace sas_motion {
 
-/// A sigma-point filter that carries a root of the covariance instead of the covariance: with spherical simplex points the SS-SRUKF, with
-/// unscented points the SR-UKF. It equals SigmaPointFilter, and stands a covariance that has lost rank. [Merwe2001]
+/// A sigma-point filter that carries a root of the covariance instead of the covariance: with spherical simplex points
+/// the SS-SRUKF, with unscented points the SR-UKF. It equals SigmaPointFilter, and stands a covariance that has lost
+/// rank. [Merwe2001]
 ///
-/// With weights that are not negative a prediction only adds squares, and no downdate can fail for good. Noise is additive and given by a
-/// lower triangular root with a diagonal that is not negative; the points are drawn anew for every update.
+/// With weights that are not negative a prediction only adds squares, and no downdate can fail for good. Noise is
+/// additive and given by a lower triangular root with a diagonal that is not negative; the points are drawn anew for
+/// every update.
 template <int N, int Count, class Points = SigmaPoints<N, Count>>
 class SquareRootFilter {
  public:
@@ -24,13 +26,16 @@ class SquareRootFilter {
   using Image = SigmaImage<N, M, Count>;
 
   /// Throws std::invalid_argument where a weight is negative.
-  explicit SquareRootFilter(const Points& points) : points_(points), root_weights_(points.covariance_weights.cwiseSqrt()) {
-    if (!(points.covariance_weights.minCoeff() >= 0)) throw std::invalid_argument("a square-root filter needs sigma points without negative weights");
+  explicit SquareRootFilter(const Points& points)
+      : points_(points), root_weights_(points.covariance_weights.cwiseSqrt()) {
+    if (!(points.covariance_weights.minCoeff() >= 0))
+      throw std::invalid_argument("a square-root filter needs sigma points without negative weights");
   }
 
   /// The belief after x' = f(x) + w, w ~ N(0, Q_root Q_root^T), or nothing where a value is not finite.
   template <class Function, class Difference = PlainDifference>
-  std::optional<Belief> predict(const Belief& belief, const Function& f, const Matrix<N>& Q_root, const Difference& difference = {}) const {
+  std::optional<Belief> predict(const Belief& belief, const Function& f, const Matrix<N>& Q_root,
+                                const Difference& difference = {}) const {
     const auto image = imageOf<N>(points_, belief.mean, spread(points_, belief.root), f, difference);
     Belief prior{image.mean, Q_root};
     addSquares<N, Count>(prior.root, weighted<N>(image.deviations));
@@ -47,7 +52,8 @@ class SquareRootFilter {
 
   /// Fuses an innovation, z less the image's mean, with noise of covariance R_root R_root^T.
   template <int M>
-  Update<Belief, M> condition(const Belief& prior, const Image<M>& image, const Vector<M>& innovation, const Matrix<M>& R_root) const {
+  Update<Belief, M> condition(const Belief& prior, const Image<M>& image, const Vector<M>& innovation,
+                              const Matrix<M>& R_root) const {
     Update<Belief, M> result;
     result.belief = prior;
     result.verdict = Verdict::Invalid;
@@ -77,7 +83,8 @@ class SquareRootFilter {
 
   /// The belief after reading z = h(x) + v, v ~ N(0, R_root R_root^T).
   template <int M, class Function, class Difference = PlainDifference>
-  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R_root, const Difference& difference = {}) const {
+  Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Function& h, const Matrix<M>& R_root,
+                           const Difference& difference = {}) const {
     return projectAndCondition<M>(*this, prior, z, h, R_root, difference);
   }
 

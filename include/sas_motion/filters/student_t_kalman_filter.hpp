@@ -9,8 +9,9 @@ namespace sas_motion {
 
 /// Kalman filter with Student-t measurement noise in every row, by variational Bayes [Agamennoni2012; Piche2012].
 ///
-/// Each row's precision factor lambda = (nu + 1) / (nu + E[e^2] / R), with E[e^2] the squared residual at the posterior plus its
-/// variance H P^+ H^T, is iterated to a fixed point from the prediction. As nu grows this is the Kalman filter. R is diagonal.
+/// Each row's precision factor lambda = (nu + 1) / (nu + E[e^2] / R), with E[e^2] the squared residual at the posterior
+/// plus its variance H P^+ H^T, is iterated to a fixed point from the prediction. As nu grows this is the Kalman
+/// filter. R is diagonal.
 template <int N>
 class StudentTKalmanFilter {
  public:
@@ -26,7 +27,9 @@ class StudentTKalmanFilter {
   /// Throws std::invalid_argument where an option is out of its range.
   explicit StudentTKalmanFilter(const Options& options);
 
-  Belief predict(const Belief& belief, const Transition<N>& transition) const { return predictGaussian(belief, transition); }
+  Belief predict(const Belief& belief, const Transition<N>& transition) const {
+    return predictGaussian(belief, transition);
+  }
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;

@@ -17,7 +17,8 @@ enum class Verdict {
   Invalid        ///< not finite, no usable covariance, a duplicate or a failed factorization
 };
 
-/// The report of one measurement update. A failed factorization leaves the belief at the prior and the verdict at Invalid.
+/// The report of one measurement update. A failed factorization leaves the belief at the prior and the verdict at
+/// Invalid.
 template <class Belief, int M>
 struct Update {
   Belief belief;

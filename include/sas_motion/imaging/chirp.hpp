@@ -7,7 +7,8 @@
 
 namespace sas_motion::imaging {
 
-/// The transmitted pulse at complex baseband: a linear frequency sweep from -B/2 to B/2 over the pulse length, of amplitude 1, sampled at sampleRate().
+/// The transmitted pulse at complex baseband: a linear frequency sweep from -B/2 to B/2 over the pulse length, of
+/// amplitude 1, sampled at sampleRate().
 Spectrum chirp(const SonarDescription& sonar);
 
 }  // namespace sas_motion::imaging

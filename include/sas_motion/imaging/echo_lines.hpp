@@ -9,7 +9,8 @@
 
 namespace sas_motion::imaging {
 
-/// What the receivers heard, as complex baseband: an echo by a path of length L has the phase exp(-j 2 pi f0 L / c). One line a path.
+/// What the receivers heard, as complex baseband: an echo by a path of length L has the phase exp(-j 2 pi f0 L / c).
+/// One line a path.
 struct EchoLines {
   double carrier = 0;        ///< f0 [Hz]
   double sound_speed = 0;    ///< c [m/s]

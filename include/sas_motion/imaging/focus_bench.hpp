@@ -19,12 +19,12 @@ struct FocusedImage {
   double entropy = 0;                        ///< [nat]
 };
 
-/// Focuses and measures the image of one trajectory after another, from echoes that are made once, on the true track. Poses are those of the pings, in the
-/// frame of the aperture.
+/// Focuses and measures the image of one trajectory after another, from echoes that are made once, on the true track.
+/// Poses are those of the pings, in the frame of the aperture.
 class FocusBench {
  public:
-  /// `times` of the pings [s]. Keeps a reference to the settings. Throws std::invalid_argument where the scene needs more than their memory_limit or their
-  /// margin is too small.
+  /// `times` of the pings [s]. Keeps a reference to the settings. Throws std::invalid_argument where the scene needs
+  /// more than their memory_limit or their margin is too small.
   FocusBench(const FocusSettings& settings, std::vector<double> times, std::vector<PingPose> truth, int threads);
 
   /// The image along the true track. Its peaks are the reference of all others' loss.

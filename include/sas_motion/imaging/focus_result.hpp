@@ -44,7 +44,9 @@ struct FocusResult {
   std::vector<FocusedTrajectory> trajectories;  ///< truth first
 };
 
-/// Focuses and measures the image along these poses and writes it as FOLDER/NAME.npy; as FOLDER/NAME_autofocus.npy also what autofocus makes of it.
-FocusedTrajectory focusAlong(FocusBench& bench, const std::vector<PingPose>& poses, const std::string& folder, const std::string& name, bool autofocus);
+/// Focuses and measures the image along these poses and writes it as FOLDER/NAME.npy; as FOLDER/NAME_autofocus.npy also
+/// what autofocus makes of it.
+FocusedTrajectory focusAlong(FocusBench& bench, const std::vector<PingPose>& poses, const std::string& folder,
+                             const std::string& name, bool autofocus);
 
 }  // namespace sas_motion::imaging

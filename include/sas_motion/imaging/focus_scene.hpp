@@ -16,8 +16,9 @@ namespace sas_motion::imaging {
 struct ApertureSettings {
   std::optional<double> start;  ///< after the bag's first truth [s]; none: where the track is straightest
   double duration = 0;          ///< [s]; 0: the time of one synthetic aperture, r0 lambda / (D v)
-  bool speed_locked = true;     ///< pings just often enough to sample the aperture evenly at the window's mean speed; else at the sonar's ping rate
-  double longest_gap = 0.5;     ///< between two poses of a trajectory that is interpolated over [s]
+  bool speed_locked = true;  ///< pings just often enough to sample the aperture evenly at the window's mean speed; else
+                             ///< at the sonar's ping rate
+  double longest_gap = 0.5;  ///< between two poses of a trajectory that is interpolated over [s]
 };
 
 /// A point on the bottom.
@@ -62,11 +63,13 @@ double apertureTime(const FocusSettings& settings, double speed);
 /// Places in the frame of the aperture, whose bottom is z = 0.
 std::vector<Eigen::Vector3d> targetPlaces(const FocusSettings& settings);
 
-/// The pixels around the targets, rows outwards from the track, for an aperture of this length [m]. `half_chip` pixels on each side of a target and
-/// what lies between are inside; throws std::invalid_argument naming the margin needed where they are not.
+/// The pixels around the targets, rows outwards from the track, for an aperture of this length [m]. `half_chip` pixels
+/// on each side of a target and what lies between are inside; throws std::invalid_argument naming the margin needed
+/// where they are not.
 ImageGrid focusGrid(const FocusSettings& settings, double aperture_length, int half_chip);
 
-/// How far from its expected place a target may be looked for: as far as its chip stays inside, and no nearer to another target [m].
+/// How far from its expected place a target may be looked for: as far as its chip stays inside, and no nearer to
+/// another target [m].
 double searchRadius(const FocusSettings& settings, const ImageGrid& grid, int half_chip);
 
 /// Targets of amplitude 1, and the speckle over the grid.

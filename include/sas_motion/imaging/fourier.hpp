@@ -37,7 +37,9 @@ class Fourier {
     for (auto& value : x) value /= static_cast<double>(n_);
   }
   /// Frequency of bin k in cycles a sample, in [-1/2, 1/2).
-  double frequency(std::size_t k) const { return (static_cast<double>(k) - (2 * k >= n_ ? static_cast<double>(n_) : 0.0)) / static_cast<double>(n_); }
+  double frequency(std::size_t k) const {
+    return (static_cast<double>(k) - (2 * k >= n_ ? static_cast<double>(n_) : 0.0)) / static_cast<double>(n_);
+  }
 
  private:
   std::size_t n_;

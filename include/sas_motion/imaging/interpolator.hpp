@@ -17,8 +17,8 @@ inline double sinc(double x) { return std::abs(x) < 1e-9 ? 1.0 : std::sin(kPi * 
 /// A sinc under a Kaiser window of this many samples. [Kaiser1974]
 double kaiserSinc(double x, int taps, double beta);
 
-/// Values between the samples of a band-limited line, by a Kaiser-windowed sinc of 16 taps. For lines sampled at 1.5 times their bandwidth the error is
-/// below -75 dB; tested.
+/// Values between the samples of a band-limited line, by a Kaiser-windowed sinc of 16 taps. For lines sampled at 1.5
+/// times their bandwidth the error is below -75 dB; tested.
 class Interpolator {
  public:
   static constexpr int kTaps = 16;

@@ -15,14 +15,16 @@ struct AutofocusOptions {
 };
 
 struct Autofocus {
-  Image image;                ///< focused
-  std::vector<double> phase;  ///< taken off each bin of the along-track spectrum, from the gap upwards, without mean and trend [rad]
+  Image image;  ///< focused
+  std::vector<double>
+      phase;  ///< taken off each bin of the along-track spectrum, from the gap upwards, without mean and trend [rad]
   int iterations = 0;
   bool converged = false;
 };
 
-/// Phase gradient autofocus [Wahl1994]: the phase error common to all rows, over the along-track wave number, which is the place in the aperture. For patches
-/// that all of the aperture saw and that are short against it. A mean and a trend of phase move the image and cannot be found.
+/// Phase gradient autofocus [Wahl1994]: the phase error common to all rows, over the along-track wave number, which is
+/// the place in the aperture. For patches that all of the aperture saw and that are short against it. A mean and a
+/// trend of phase move the image and cannot be found.
 Autofocus phaseGradientAutofocus(const Image& image, const AutofocusOptions& options);
 
 }  // namespace sas_motion::imaging

@@ -11,19 +11,21 @@ namespace sas_motion::imaging {
 
 /// Measures of a cut through a point target, 32 times oversampled. [dB] are of power.
 struct CutMeasures {
-  double irw = 0;            ///< width of the main lobe at -3 dB of its peak, interpolated [m]
-  double pslr = 0;           ///< highest side lobe over the peak [dB]
-  double islr = 0;           ///< energy of the side lobes over that of the main lobe, both within `extent` [dB]
-  double main_lobe = 0;      ///< between the first nulls [m]
-  double extent = 0;         ///< each side of the peak: side lobes reach from the first null to here, ten times half the main lobe [m]
+  double irw = 0;        ///< width of the main lobe at -3 dB of its peak, interpolated [m]
+  double pslr = 0;       ///< highest side lobe over the peak [dB]
+  double islr = 0;       ///< energy of the side lobes over that of the main lobe, both within `extent` [dB]
+  double main_lobe = 0;  ///< between the first nulls [m]
+  double extent =
+      0;  ///< each side of the peak: side lobes reach from the first null to here, ten times half the main lobe [m]
   double peak_position = 0;  ///< from the cut's first sample [m]
   double peak_power = 0;     ///< |.|^2
   bool complete = false;     ///< main lobe and extent lie inside the cut; else what is missing is left out
 };
 constexpr int kOversampling = 32;
 
-/// `cut` is sampled at least at its bandwidth every `step` metres; its spectrum may lie anywhere. Nulls are the first minima on either side of the peak:
-/// a main lobe ended at -3 dB would report an ISLR of about -3 dB whatever the side lobes.
+/// `cut` is sampled at least at its bandwidth every `step` metres; its spectrum may lie anywhere. Nulls are the first
+/// minima on either side of the peak: a main lobe ended at -3 dB would report an ISLR of about -3 dB whatever the side
+/// lobes.
 CutMeasures measureCut(const std::vector<std::complex<double>>& cut, double step);
 
 struct PointTargetMeasures {
@@ -43,7 +45,8 @@ struct ChipOptions {
 /// Measures the brightest point near the true position.
 PointTargetMeasures measurePointTarget(const Image& image, const Eigen::Vector3d& truth, const ChipOptions& options);
 
-/// Energy outside the main lobe over energy inside it, in the whole image [dB]. The main lobe is the rectangle between the nulls of both cuts.
+/// Energy outside the main lobe over energy inside it, in the whole image [dB]. The main lobe is the rectangle between
+/// the nulls of both cuts.
 double wholeImageIslr(const Image& image, const PointTargetMeasures& target);
 
 /// Entropy of the image's power, -sum p ln p with p the share of a pixel [nat]: the lower, the sharper.

@@ -18,8 +18,8 @@ struct CompressionOptions {
   int threads = 1;
 };
 
-/// Raw echoes to range-compressed ones, where a scatterer's amplitude is that of its peak. Phases and delays stay; lines lose the length of a pulse.
-/// A line in which an echo is not finite becomes zero and is counted.
+/// Raw echoes to range-compressed ones, where a scatterer's amplitude is that of its peak. Phases and delays stay;
+/// lines lose the length of a pulse. A line in which an echo is not finite becomes zero and is counted.
 EchoLines compressRange(const EchoLines& raw, const SonarDescription& sonar, const CompressionOptions& options);
 
 }  // namespace sas_motion::imaging

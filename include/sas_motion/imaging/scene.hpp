@@ -29,12 +29,15 @@ struct Scene {
 
 /// A flat patch of bottom with speckle, and blocks on it.
 struct SpeckleOptions {
-  Eigen::Vector3d lower = Eigen::Vector3d::Zero(), upper = Eigen::Vector3d::Zero();  ///< opposite corners of the bottom; z of `lower` is the bottom's [m]
-  double density = 3000;                                                             ///< scatterers a square metre
-  double block_contrast = 10;                                                        ///< power of a block's faces over the bottom's, an area
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero(),
+                  upper =
+                      Eigen::Vector3d::Zero();  ///< opposite corners of the bottom; z of `lower` is the bottom's [m]
+  double density = 3000;                        ///< scatterers a square metre
+  double block_contrast = 10;                   ///< power of a block's faces over the bottom's, an area
 };
 
-/// Scatterers at random places with circular Gaussian amplitudes, whose power an area is 1; blocks get scatterers on their sides and top.
+/// Scatterers at random places with circular Gaussian amplitudes, whose power an area is 1; blocks get scatterers on
+/// their sides and top.
 Scene speckleScene(const SpeckleOptions& options, const std::vector<Block>& blocks, std::uint64_t seed);
 
 }  // namespace sas_motion::imaging

@@ -8,20 +8,20 @@ namespace sas_motion::imaging {
 
 /// A synthetic aperture sonar. Body axes: x forward along the array, y to port, z up.
 struct SonarDescription {
-  double carrier = 100e3;                                         ///< [Hz]
-  double bandwidth = 40e3;                                        ///< of the chirp [Hz]
-  double pulse_length = 5e-3;                                     ///< [s]
-  double element = 0.1;                                           ///< length along the array of the transmitter and of each receiver [m]
-  int receivers = 8;                                              ///< elements of the receiver array
-  double spacing = 0.1;                                           ///< between the centres of neighbouring receivers [m]
-  double ping_rate = 8;                                           ///< [Hz]
-  double speed = 3;                                               ///< that the ping rate must serve [m/s]
-  double sound_speed = 1500;                                      ///< [m/s]
-  double altitude = 10;                                           ///< over the bottom [m]
-  double near_range = 20;                                         ///< slant range where the swath begins [m]
-  double far_range = 45;                                          ///< slant range where it ends [m]
-  double oversampling = 1.5;                                      ///< complex sampling rate over bandwidth [-]
-  bool stop_and_hop = false;                                      ///< receivers stand still between transmission and echo
+  double carrier = 100e3;      ///< [Hz]
+  double bandwidth = 40e3;     ///< of the chirp [Hz]
+  double pulse_length = 5e-3;  ///< [s]
+  double element = 0.1;        ///< length along the array of the transmitter and of each receiver [m]
+  int receivers = 8;           ///< elements of the receiver array
+  double spacing = 0.1;        ///< between the centres of neighbouring receivers [m]
+  double ping_rate = 8;        ///< [Hz]
+  double speed = 3;            ///< that the ping rate must serve [m/s]
+  double sound_speed = 1500;   ///< [m/s]
+  double altitude = 10;        ///< over the bottom [m]
+  double near_range = 20;      ///< slant range where the swath begins [m]
+  double far_range = 45;       ///< slant range where it ends [m]
+  double oversampling = 1.5;   ///< complex sampling rate over bandwidth [-]
+  bool stop_and_hop = false;   ///< receivers stand still between transmission and echo
   Eigen::Vector3d transmitter_body = Eigen::Vector3d::Zero();     ///< its centre [m]
   Eigen::Vector3d receiver_array_body = Eigen::Vector3d::Zero();  ///< middle of the receiver array [m]
 
@@ -32,8 +32,8 @@ struct SonarDescription {
   Eigen::Vector3d receiverBody(int receiver) const;
 };
 
-/// The lowest ping rate that samples the aperture at this speed [Hz]: phase centres lie at most half an element apart, and an array of N receivers
-/// brings N of them, half their spacing apart, in each ping [Bellettini2002].
+/// The lowest ping rate that samples the aperture at this speed [Hz]: phase centres lie at most half an element apart,
+/// and an array of N receivers brings N of them, half their spacing apart, in each ping [Bellettini2002].
 double neededPingRate(const SonarDescription& sonar, double speed);
 
 /// The highest ping rate at which the echo from the far range is in before the next ping [Hz].

@@ -32,9 +32,11 @@ class Trajectory {
 
   /// In order of time.
   const std::vector<TimedPose>& poses() const { return poses_; }
-  /// Between two poses the position moves straight and the attitude by the shortest rotation, both evenly. Nothing before the first pose and after the last.
+  /// Between two poses the position moves straight and the attitude by the shortest rotation, both evenly. Nothing
+  /// before the first pose and after the last.
   std::optional<TimedPose> at(Stamp stamp) const;
-  /// The first stretch of [begin, end] without poses that is longer than this [s], or that lies before the first pose or after the last, whatever its length.
+  /// The first stretch of [begin, end] without poses that is longer than this [s], or that lies before the first pose
+  /// or after the last, whatever its length.
   std::optional<Gap> firstGap(Stamp begin, Stamp end, double longest) const;
 
  private:
@@ -44,8 +46,9 @@ class Trajectory {
 /// The times of pings at this rate [Hz] over this duration [s].
 std::vector<Stamp> pingStamps(Stamp begin, double duration, double ping_rate);
 
-/// The sonar at each ping. Its velocity is the mean one until `interval` [s] later: the stretch in which the echo comes in, so that two estimates of almost one
-/// stamp do not give a leap for a speed. Throws std::invalid_argument where the trajectory does not reach from the first ping to an interval after the last.
+/// The sonar at each ping. Its velocity is the mean one until `interval` [s] later: the stretch in which the echo comes
+/// in, so that two estimates of almost one stamp do not give a leap for a speed. Throws std::invalid_argument where the
+/// trajectory does not reach from the first ping to an interval after the last.
 std::vector<PingPose> pingPoses(const Trajectory& trajectory, const std::vector<Stamp>& pings, double interval);
 
 }  // namespace sas_motion::imaging

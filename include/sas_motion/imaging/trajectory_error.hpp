@@ -17,17 +17,22 @@ struct Trend {
 /// `values` at `times` [s], as many of both.
 Trend fitTrend(const std::vector<double>& times, const std::vector<double>& values);
 
-/// A trajectory's error over one aperture, computed less true. What is left without mean and trend blurs the image; mean and trend move it.
+/// A trajectory's error over one aperture, computed less true. What is left without mean and trend blurs the image;
+/// mean and trend move it.
 struct ApertureTrajectoryError {
   Trend along;          ///< along the track [m]
   Trend line_of_sight;  ///< positive: too far from the target [m]
-  /// How far the error moves the image, in the plane of the bottom: to the place whose estimated paths fit the true ones by the target best [m].
+  /// How far the error moves the image, in the plane of the bottom: to the place whose estimated paths fit the true
+  /// ones by the target best [m].
   Eigen::Vector3d image_shift = Eigen::Vector3d::Zero();
-  Trend path;  ///< half of each line's path by the moved image, less the true one by the target: so with attitude and velocity too [m]
+  Trend path;  ///< half of each line's path by the moved image, less the true one by the target: so with attitude and
+               ///< velocity too [m]
 };
 
-/// Errors in the frame of the aperture at the pings' times [s], the line of sight being that from the middle of the true positions.
-ApertureTrajectoryError apertureTrajectoryError(const SonarDescription& sonar, const std::vector<double>& times, const std::vector<PingPose>& truth,
+/// Errors in the frame of the aperture at the pings' times [s], the line of sight being that from the middle of the
+/// true positions.
+ApertureTrajectoryError apertureTrajectoryError(const SonarDescription& sonar, const std::vector<double>& times,
+                                                const std::vector<PingPose>& truth,
                                                 const std::vector<PingPose>& estimate, const Eigen::Vector3d& target);
 
 }  // namespace sas_motion::imaging

@@ -6,8 +6,8 @@
 
 namespace sas_motion {
 
-/// An output that appears under its name only when it is whole: it is written under a temporary name beside it, flushed to disk and renamed.
-/// Destroyed before commit(), it leaves nothing behind and an older file untouched.
+/// An output that appears under its name only when it is whole: it is written under a temporary name beside it, flushed
+/// to disk and renamed. Destroyed before commit(), it leaves nothing behind and an older file untouched.
 class AtomicFile {
  public:
   /// Throws std::runtime_error naming the file where its folder cannot be written.

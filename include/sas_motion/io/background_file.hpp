@@ -31,13 +31,15 @@ struct Block {
 /// A file written front to back by a thread of its own, so that the caller computes while the system copies.
 class BackgroundFile {
  public:
-  /// Functions throw std::runtime_error with the system's reason; a write that failed is thrown by the next write() or by close().
+  /// Functions throw std::runtime_error with the system's reason; a write that failed is thrown by the next write() or
+  /// by close().
   explicit BackgroundFile(const std::string& path);
   ~BackgroundFile();
   BackgroundFile(const BackgroundFile&) = delete;
   BackgroundFile& operator=(const BackgroundFile&) = delete;
 
-  /// Takes a block to be written and leaves an empty one. Waits for the block before it where the disk is slower than the caller.
+  /// Takes a block to be written and leaves an empty one. Waits for the block before it where the disk is slower than
+  /// the caller.
   void write(Block& block);
   /// Waits for the last block, then writes `text` over what is at `position`. Nothing may be written after it.
   void close(std::uint64_t position, std::string_view text);

@@ -8,8 +8,9 @@
 
 namespace sas_motion {
 
-/// A hash of bytes, to tell whether something is still the same: FNV-1a over words of 8 bytes, in four strands that the processor takes side by
-/// side, then over the strands and the size. The shift lets high bits count. No protection against forgery.
+/// A hash of bytes, to tell whether something is still the same: FNV-1a over words of 8 bytes, in four strands that the
+/// processor takes side by side, then over the strands and the size. The shift lets high bits count. No protection
+/// against forgery.
 class Fingerprint {
  public:
   static constexpr std::size_t kBlock = 32;

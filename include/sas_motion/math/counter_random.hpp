@@ -11,7 +11,8 @@
 
 namespace sas_motion {
 
-/// Whose numbers are drawn: each user, step and item has its own, whatever is drawn elsewhere, in whatever order, on whatever thread.
+/// Whose numbers are drawn: each user, step and item has its own, whatever is drawn elsewhere, in whatever order, on
+/// whatever thread.
 struct DrawPlace {
   std::uint32_t stream = 0, step = 0, item = 0;
 };
@@ -22,7 +23,8 @@ class CounterRandom {
   using result_type = std::uint64_t;
 
   CounterRandom(std::uint64_t seed, const DrawPlace& place)
-      : counter_{{0, place.stream, place.item, place.step}}, key_{{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}} {}
+      : counter_{{0, place.stream, place.item, place.step}},
+        key_{{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}} {}
 
   double gaussian() { return boost::random::normal_distribution<double>()(*this); }
   double uniform() { return boost::random::uniform_01<double>()(*this); }

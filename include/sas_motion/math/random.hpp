@@ -11,8 +11,8 @@
 
 namespace sas_motion {
 
-/// A seeded source of random numbers: the same numbers on every platform. `stream` separates users of one seed, so that adding a
-/// sensor does not change the noise of the others.
+/// A seeded source of random numbers: the same numbers on every platform. `stream` separates users of one seed, so that
+/// adding a sensor does not change the noise of the others.
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : engine_(mix(seed, stream)) {}

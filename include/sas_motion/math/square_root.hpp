@@ -20,8 +20,9 @@ Gaussian<N> gaussian(const RootGaussian<N>& belief) {
   return {belief.mean, belief.root * belief.root.transpose()};
 }
 
-/// The lower triangular root of root root^T + A A^T, its diagonal not negative: Householder reflections of [root, A] from the right, each of
-/// which leaves the root's zeros alone. Never forms a square, so that half as many digits serve. [Golub2013, 5.2; Merwe2001]
+/// The lower triangular root of root root^T + A A^T, its diagonal not negative: Householder reflections of [root, A]
+/// from the right, each of which leaves the root's zeros alone. Never forms a square, so that half as many digits
+/// serve. [Golub2013, 5.2; Merwe2001]
 template <int N, int Count>
 void addSquares(Matrix<N>& root, const Matrix<N, Count>& A) {
   Matrix<Count, N> rows = A.transpose();  // a row of A each column, as they lie in memory one after the other

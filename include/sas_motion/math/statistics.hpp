@@ -9,8 +9,8 @@ namespace sas_motion {
 /// Quantile of the chi-squared distribution with `degrees` degrees of freedom.
 double chiSquaredQuantile(double probability, double degrees);
 
-/// The band that the average of `count` independent chi-squared variables of `degrees` degrees of freedom stays in with the given
-/// `probability`, e.g. 0.95 [BarShalom2001, 5.4.2].
+/// The band that the average of `count` independent chi-squared variables of `degrees` degrees of freedom stays in with
+/// the given `probability`, e.g. 0.95 [BarShalom2001, 5.4.2].
 struct Band {
   double lower;
   double upper;

@@ -4,8 +4,9 @@
 
 #include "sas_motion/filters/linearized.hpp"
 
-/// The textbook problem on which filters are compared without anything else in the way: linear, three axes of position and velocity, white
-/// acceleration [BarShalom2001, 6.2.2]. All positions and the velocity of the first axis are measured.
+/// The textbook problem on which filters are compared without anything else in the way: linear, three axes of position
+/// and velocity, white acceleration [BarShalom2001, 6.2.2]. All positions and the velocity of the first axis are
+/// measured.
 namespace sas_motion::constant_velocity {
 
 constexpr int kStates = 6;  ///< position [m], then velocity [m/s]

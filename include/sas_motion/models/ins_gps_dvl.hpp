@@ -10,7 +10,8 @@
 #include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/mechanisation.hpp"
 
-/// Centralised fusion of INS, GPS and DVL by their errors [Qin2012]; numbers as in docs/ins_gps_dvl.md. Errors are computed minus true; C' = (I - [phi x]) C.
+/// Centralised fusion of INS, GPS and DVL by their errors [Qin2012]; numbers as in docs/ins_gps_dvl.md. Errors are
+/// computed minus true; C' = (I - [phi x]) C.
 namespace sas_motion::ins {
 
 constexpr int kStates = 27;
@@ -31,8 +32,8 @@ using ErrorMatrix = Matrix<kStates>;
 
 constexpr double kMilliradian = 1e-3, kDrift = 1e-6, kBias = 1e-3;  // units of the states [rad], [rad/s], [m/s^2]
 
-/// A DVL whose error along the way wanders, and which is turned about its upward axis by an angle that wanders: what it reads to starboard too much grows
-/// with the speed. (B.4)
+/// A DVL whose error along the way wanders, and which is turned about its upward axis by an angle that wanders: what it
+/// reads to starboard too much grows with the speed. (B.4)
 struct DvlDrift {
   double offset = 0.01;             ///< of the forward velocity [m/s]
   double offset_time = 600;         ///< correlation time [s]
@@ -78,8 +79,9 @@ const char* sensorName(Sensor sensor);
 constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Depth ? 1 : sensor == Sensor::Dpc ? 2 : 3; }
 Vector<3>& leverOf(Parameters& parameters, Sensor sensor);
 
-/// How the sonar's array moved from one ping to the next, by displaced phase centres: its mean velocity over the ground, which stands for the one in the
-/// middle of the interval T. That leaves v'' T^2 / 24: for 0.3 m of heave in 6 s at most 0.6 mm/s at 0.2 s and 0.2 mm/s at 0.125 s.
+/// How the sonar's array moved from one ping to the next, by displaced phase centres: its mean velocity over the
+/// ground, which stands for the one in the middle of the interval T. That leaves v'' T^2 / 24: for 0.3 m of heave in 6
+/// s at most 0.6 mm/s at 0.2 s and 0.2 mm/s at 0.125 s.
 struct ArrayVelocity {
   Vector<3> sight_body = -Vector<3>::UnitZ();  ///< unit vector along the line of sight, across the array
   Vector<2> velocity = Vector<2>::Zero();      ///< forward, and along the sight [m/s]
@@ -98,14 +100,15 @@ struct Aiding {
   std::optional<Vector<3>> lever_body;  ///< its sensor from the INS, from now on [m]
 };
 
-/// Velocity, position and attitude rows of the INS error dynamics in SI units, (rad, rad, m) for the position. (C.2), with the derivative of
-/// gravity by latitude kept.
+/// Velocity, position and attitude rows of the INS error dynamics in SI units, (rad, rad, m) for the position. (C.2),
+/// with the derivative of gravity by latitude kept.
 Matrix<9> inertialDynamics(const NavigationState& state, const Vector<3>& force_nav);
 
 /// Rate of the body over the ground, from that against inertial space; body [rad/s].
 Vector<3> rateOverGround(const NavigationState& ins, const Vector<3>& rate_body);
 
-/// The linear model of the 27 errors. Its units make them alike in size: metres east, north, up at a fixed place, mrad, urad/s, mm/s^2, m/s.
+/// The linear model of the 27 errors. Its units make them alike in size: metres east, north, up at a fixed place, mrad,
+/// urad/s, mm/s^2, m/s.
 class ErrorModel {
  public:
   ErrorModel(const Parameters& parameters, const NavigationState& start);
@@ -128,17 +131,20 @@ class ErrorModel {
   /// A fix of the antenna: what the INS says of it minus the fix.
   LinearMeasurement<kStates, 3> gps(const NavigationState& ins, const NavigationState& fix, const Errors& mean) const;
   /// Velocity over the ground on the DVL's axes; `rate_body` is of the body against inertial space.
-  LinearMeasurement<kStates, 3> dvl(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_body, const Errors& mean) const;
+  LinearMeasurement<kStates, 3> dvl(const NavigationState& ins, const Vector<3>& rate_body,
+                                    const Vector<3>& velocity_body, const Errors& mean) const;
   /// Height of the depth sensor.
   LinearMeasurement<kStates, 1> depth(const NavigationState& ins, double height, const Errors& mean) const;
   /// Velocity of the sonar's array forward and along its line of sight.
-  LinearMeasurement<kStates, 2> dpc(const NavigationState& ins, const Vector<3>& rate_body, const ArrayVelocity& array, const Errors& mean) const;
+  LinearMeasurement<kStates, 2> dpc(const NavigationState& ins, const Vector<3>& rate_body, const ArrayVelocity& array,
+                                    const Errors& mean) const;
 
   /// What a DVL at this velocity reads too much by its errors that wander, to first order in them; body [m/s].
   Vector<3> dvlError(const Vector<3>& velocity_body, const Errors& mean) const;
 
   /// Velocity of the INS over the ground from the DVL's reading; body.
-  Vector<3> velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body, const Vector<3>& velocity_dvl_body) const;
+  Vector<3> velocityOfIns(const NavigationState& ins, const Vector<3>& rate_body,
+                          const Vector<3>& velocity_dvl_body) const;
 
   const Errors& unit() const { return unit_; }  ///< of each state: SI of part C = unit * state
   const Parameters& parameters() const { return parameters_; }

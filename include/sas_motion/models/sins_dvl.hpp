@@ -10,8 +10,8 @@ namespace sas_motion::ins {
 struct Parameters;
 }
 
-/// A strapdown INS aided by a DVL, by errors that may be large: attitude errors are additive errors of the quaternion [Yu1999, Li2014]; numbers as in
-/// docs/sins_dvl.md. Errors are computed minus true.
+/// A strapdown INS aided by a DVL, by errors that may be large: attitude errors are additive errors of the quaternion
+/// [Yu1999, Li2014]; numbers as in docs/sins_dvl.md. Errors are computed minus true.
 namespace sas_motion::sins {
 
 /// Where each group of states begins; SI units.
@@ -42,12 +42,12 @@ struct Parameters {
   Vector<3> dvl_white{0.006, 0.006, 0.018};            ///< starboard, forward, up [m/s]
   double depth_white = 0.1;                            ///< [m]
   Vector<3> dvl_lever_body = Vector<3>::Zero();        ///< from the INS [m]
-  double dvl_lever_sigma = 0;                          ///< how far that is wrong on each axis, for the factor graphs; 0: it is known [m]
-  Vector<3> depth_lever_body = Vector<3>::Zero();      ///< [m]
-  Vector<3> start_position{0.06, 0.06, 1};             ///< east, north, up [m]
-  double start_velocity = 0.05;                        ///< [m/s]
-  double start_tilt = 0.05 * kRadPerDeg;               ///< [rad]
-  double start_heading = 0.3 * kRadPerDeg;             ///< [rad]
+  double dvl_lever_sigma = 0;  ///< how far that is wrong on each axis, for the factor graphs; 0: it is known [m]
+  Vector<3> depth_lever_body = Vector<3>::Zero();  ///< [m]
+  Vector<3> start_position{0.06, 0.06, 1};         ///< east, north, up [m]
+  double start_velocity = 0.05;                    ///< [m/s]
+  double start_tilt = 0.05 * kRadPerDeg;           ///< [rad]
+  double start_heading = 0.3 * kRadPerDeg;         ///< [rad]
 };
 
 /// The same sensors and start as the fusion by small angles is told of them; it has no GPS then.
@@ -61,9 +61,11 @@ Matrix<4, 3> leftTurn(const Eigen::Quaterniond& q);
 Matrix<4, 3> rightTurn(const Eigen::Quaterniond& q);
 
 /// Where a body comes that began at `state` and felt `felt`, if its unit has drift `eps` and bias `nabla`.
-NavigationState moved(const NavigationState& state, const Preintegration& felt, const Vector<3>& eps, const Vector<3>& nabla);
+NavigationState moved(const NavigationState& state, const Preintegration& felt, const Vector<3>& eps,
+                      const Vector<3>& nabla);
 
-/// The error dynamics over an interval, exactly: the INS and what an error says is the truth are both moved, and compared. (B.1)-(B.4)
+/// The error dynamics over an interval, exactly: the INS and what an error says is the truth are both moved, and
+/// compared. (B.1)-(B.4)
 template <int N>
 class Motion {
  public:
@@ -71,8 +73,9 @@ class Motion {
   Motion(const Parameters& parameters, const NavigationState& ins, const Preintegration& felt);
 
   Vector<N> operator()(const Vector<N>& x) const;
-  /// Lower triangular root of the noise over the interval. States that are constants get a little of it, so that it has full rank. `besides`: more variance of
-  /// velocity, position and attitude errors [m^2/s^2, m^2, rad^2], east, north, up.
+  /// Lower triangular root of the noise over the interval. States that are constants get a little of it, so that it has
+  /// full rank. `besides`: more variance of velocity, position and attitude errors [m^2/s^2, m^2, rad^2], east, north,
+  /// up.
   Matrix<N> noiseRoot(const Vector<9>& besides = Vector<9>::Zero()) const;
 
  private:

@@ -14,8 +14,8 @@ namespace sas_motion::towfish {
 
 constexpr int kStates = 6;
 
-/// x = [n, e, v_N, v_E, theta, v]: position [m] in a local tangent plane, current [m/s], heading clockwise from north [rad] and speed
-/// through the water along the heading [m/s].
+/// x = [n, e, v_N, v_E, theta, v]: position [m] in a local tangent plane, current [m/s], heading clockwise from north
+/// [rad] and speed through the water along the heading [m/s].
 enum State { kNorth, kEast, kCurrentNorth, kCurrentEast, kHeading, kSpeed };
 using StateVector = Vector<kStates>;
 using StateMatrix = Matrix<kStates>;
@@ -28,17 +28,21 @@ constexpr int kSensors = 4;
 constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Position ? 2 : sensor == Sensor::TurnRate ? 0 : 1; }
 const char* sensorName(Sensor sensor);
 
-/// One measurement. Position: north and east of the antenna [m]; heading [rad]; speed [m/s]; turn rate [rad/s] clockwise.
+/// One measurement. Position: north and east of the antenna [m]; heading [rad]; speed [m/s]; turn rate [rad/s]
+/// clockwise.
 struct Measurement {
   Stamp stamp = 0;
   Sensor sensor = Sensor::Position;
   Vector<2> value = Vector<2>::Zero();
-  Vector<2> variance = Vector<2>::Ones();        ///< of the good noise, a row each
-  Vector<2> lever_arm_body = Vector<2>::Zero();  ///< position only: antenna from the reference point, forward and starboard [m]
+  Vector<2> variance = Vector<2>::Ones();  ///< of the good noise, a row each
+  Vector<2> lever_arm_body =
+      Vector<2>::Zero();  ///< position only: antenna from the reference point, forward and starboard [m]
 };
 
 /// The order of fusion: by time, then by sensor.
-inline bool before(const Measurement& a, const Measurement& b) { return a.stamp != b.stamp ? a.stamp < b.stamp : a.sensor < b.sensor; }
+inline bool before(const Measurement& a, const Measurement& b) {
+  return a.stamp != b.stamp ? a.stamp < b.stamp : a.sensor < b.sensor;
+}
 
 /// What is known of the motion between two measurements.
 struct Input {
@@ -63,16 +67,19 @@ class Model {
   /// f: the state `dt` seconds later, by the midpoint rule in heading; the current decays exactly. (1), (6)
   StateVector predict(const StateVector& x, const Input& input, double dt) const;
 
-  /// f(x), F = df/dx and Q over `dt` seconds about x; Q is the exact integral of the linearised noise (van Loan's, in closed form).
+  /// f(x), F = df/dx and Q over `dt` seconds about x; Q is the exact integral of the linearised noise (van Loan's, in
+  /// closed form).
   Transition<kStates> transition(const StateVector& x, const Input& input, double dt) const;
 
   /// y - x with the heading wrapped.
   static StateVector difference(const StateVector& y, const StateVector& x);
 
-  /// Calls `use` with the LinearMeasurement<6, 2> of a position or the LinearMeasurement<6, 1> of a heading or speed about x. (8)
+  /// Calls `use` with the LinearMeasurement<6, 2> of a position or the LinearMeasurement<6, 1> of a heading or speed
+  /// about x. (8)
   template <class Use>
   auto linearize(const Measurement& z, const StateVector& x, Use&& use) const {
-    return z.sensor == Sensor::Position ? use(position(z, x)) : use(z.sensor == Sensor::Heading ? heading(z, x) : speed(z, x));
+    return z.sensor == Sensor::Position ? use(position(z, x))
+                                        : use(z.sensor == Sensor::Heading ? heading(z, x) : speed(z, x));
   }
 
   LinearMeasurement<kStates, 2> position(const Measurement& z, const StateVector& x) const;

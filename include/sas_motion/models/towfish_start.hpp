@@ -20,8 +20,10 @@ struct StartOptions {
 
 /// The belief at `stamp` from the measurements of the start window, or nothing without a position and a heading.
 ///
-/// Each quantity is the reading that most others agree with, so that outliers, even a majority of scattered ones, do not start the
-/// estimate off at a wrong place. Positions are first moved to `stamp` along the agreed heading and speed.
-std::optional<Gaussian<kStates>> startingBelief(Stamp stamp, const std::vector<Measurement>& window, const StartOptions& options, double current_sigma);
+/// Each quantity is the reading that most others agree with, so that outliers, even a majority of scattered ones, do
+/// not start the estimate off at a wrong place. Positions are first moved to `stamp` along the agreed heading and
+/// speed.
+std::optional<Gaussian<kStates>> startingBelief(Stamp stamp, const std::vector<Measurement>& window,
+                                                const StartOptions& options, double current_sigma);
 
 }  // namespace sas_motion::towfish

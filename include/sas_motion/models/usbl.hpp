@@ -58,15 +58,18 @@ struct Reading {
   Vector<kChannels> value = Vector<kChannels>::Zero();
   Vector<kChannels> variance = Vector<kChannels>::Zero();
 
-  bool has(int channel) const { return std::isfinite(value(channel)) && std::isfinite(variance(channel)) && variance(channel) > 0; }
+  bool has(int channel) const {
+    return std::isfinite(value(channel)) && std::isfinite(variance(channel)) && variance(channel) > 0;
+  }
 };
 
 /// One reply of the transponder, and where the vessel was.
 struct Ping {
   Stamp stamp = 0;
-  Matrix<3> C_body_map = Matrix<3>::Identity();   ///< v_body = C v_map
-  Vector<3> transponder_map = Vector<3>::Zero();  ///< the surveyed transponder from the reference point; east, north, up [m]
-  Reading reading;                                ///< of direction angles
+  Matrix<3> C_body_map = Matrix<3>::Identity();  ///< v_body = C v_map
+  Vector<3> transponder_map =
+      Vector<3>::Zero();  ///< the surveyed transponder from the reference point; east, north, up [m]
+  Reading reading;        ///< of direction angles
 };
 
 /// The measurement model h: one for filters, smoothers and simulation. [ZhangTao, eq 6 to 9]
@@ -79,8 +82,8 @@ class Model {
   Vector<kChannels> predict(const State& x, const Ping& ping) const { return predict(widened(x), ping); }
   /// dh/dx.
   Matrix<kChannels, kUnknowns> jacobian(const Unknowns& x, const Ping& ping) const;
-  /// Direction angles in this mode, with their variances to first order; a channel that the mode lacks, or that no direction can have, is
-  /// absent. The transponder lies below the array.
+  /// Direction angles in this mode, with their variances to first order; a channel that the mode lacks, or that no
+  /// direction can have, is absent. The transponder lies below the array.
   Reading convert(const Reading& direction_angles) const;
   /// y - x with angles wrapped.
   Vector<kChannels> difference(const Vector<kChannels>& y, const Vector<kChannels>& x) const;

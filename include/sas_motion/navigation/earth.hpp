@@ -6,7 +6,8 @@
 
 #include "sas_motion/math/types.hpp"
 
-/// The Earth that inertial navigation feels: WGS 84 and its normal gravity. Latitudes in radians, heights above the ellipsoid.
+/// The Earth that inertial navigation feels: WGS 84 and its normal gravity. Latitudes in radians, heights above the
+/// ellipsoid.
 namespace sas_motion::earth {
 
 constexpr double kSemiMajorAxis = 6378137;              ///< [m]
@@ -21,7 +22,8 @@ struct Radii {
 
 inline Radii radiiBySine(double sine_of_latitude, double height) {
   const double w = 1 - kEccentricitySquared * sine_of_latitude * sine_of_latitude;
-  return {kSemiMajorAxis * (1 - kEccentricitySquared) / (w * std::sqrt(w)) + height, kSemiMajorAxis / std::sqrt(w) + height};
+  return {kSemiMajorAxis * (1 - kEccentricitySquared) / (w * std::sqrt(w)) + height,
+          kSemiMajorAxis / std::sqrt(w) + height};
 }
 
 inline Radii radii(double latitude, double height) { return radiiBySine(std::sin(latitude), height); }
@@ -47,7 +49,9 @@ inline double gravityByLatitude(double latitude) {
 }
 
 /// Rotation of the Earth; east, north, up [rad/s].
-inline Vector<3> rotationRate(double latitude) { return {0, kRotationRate * std::cos(latitude), kRotationRate * std::sin(latitude)}; }
+inline Vector<3> rotationRate(double latitude) {
+  return {0, kRotationRate * std::cos(latitude), kRotationRate * std::sin(latitude)};
+}
 
 /// Rotation of the local level frame over the Earth by a velocity east, north, up [rad/s].
 inline Vector<3> transportRate(double latitude, double height, const Vector<3>& velocity_nav) {

@@ -15,7 +15,8 @@ struct Geodetic {
   double altitude = 0;  ///< above the ellipsoid [m]
 };
 
-/// The local tangent plane at a datum: where latitude and longitude become metres [Karney, GeographicLib::LocalCartesian].
+/// The local tangent plane at a datum: where latitude and longitude become metres [Karney,
+/// GeographicLib::LocalCartesian].
 class LocalFrame {
  public:
   /// Throws std::invalid_argument where the latitude is outside +-90 degrees or a coordinate is not finite.

@@ -14,7 +14,8 @@ namespace sas_motion {
 constexpr double kDegPerHour = kRadPerDeg / 3600;  ///< [rad/s]
 constexpr double kMicroG = 9.80665e-6;             ///< [m/s^2]
 
-/// Where a body is, how it moves and how it lies. Axes: nav is east, north, up at the body; body is starboard, forward, up.
+/// Where a body is, how it moves and how it lies. Axes: nav is east, north, up at the body; body is starboard, forward,
+/// up.
 struct NavigationState {
   double latitude = 0, longitude = 0;  ///< [rad]
   double height = 0;                   ///< above the ellipsoid [m]
@@ -29,7 +30,8 @@ void displace(NavigationState& state, const Vector<3>& metres_nav);
 /// Rotation vector phi of C' = (I - [phi x]) C, from the true attitude to the computed one; nav [rad].
 Vector<3> attitudeError(const Eigen::Quaterniond& computed, const Eigen::Quaterniond& truth);
 
-/// What an inertial unit says of the interval that ends at its stamp: means over it, as units that integrate inside give them.
+/// What an inertial unit says of the interval that ends at its stamp: means over it, as units that integrate inside
+/// give them.
 struct ImuReading {
   Stamp stamp = 0;
   Vector<3> rate_body = Vector<3>::Zero();   ///< of the body against inertial space [rad/s]
@@ -53,8 +55,8 @@ struct ImuStep {
   double dt = 0;  ///< integrated over [s]
 };
 
-/// Strapdown mechanisation in the local level frame. Rotation and velocity increments are corrected for coning and sculling from the present
-/// and the last one [Savage1998, I eq 47, II eq 56]. Holds no memory on the heap.
+/// Strapdown mechanisation in the local level frame. Rotation and velocity increments are corrected for coning and
+/// sculling from the present and the last one [Savage1998, I eq 47, II eq 56]. Holds no memory on the heap.
 class Mechanisation {
  public:
   struct Options {
@@ -76,8 +78,8 @@ class Mechanisation {
 
   const NavigationState& state() const { return state_; }
   Stamp stamp() const { return stamp_; }
-  /// Of the last interval: mean specific force, nav [m/s^2], and rate of the body against inertial space at its end, body [rad/s]: half an
-  /// interval of lag would put the waves into the velocity of a lever arm.
+  /// Of the last interval: mean specific force, nav [m/s^2], and rate of the body against inertial space at its end,
+  /// body [rad/s]: half an interval of lag would put the waves into the velocity of a lever arm.
   const Vector<3>& force_nav() const { return force_nav_; }
   const Vector<3>& rate_body() const { return rate_body_; }
 

@@ -6,8 +6,9 @@
 
 namespace sas_motion {
 
-/// What an inertial unit felt over an interval, apart from where it began: rotation, velocity and way on the body's axes at the beginning, and how
-/// each depends on drifts and biases of the unit. Many states can then be moved by it, each in one step. [Forster2017]
+/// What an inertial unit felt over an interval, apart from where it began: rotation, velocity and way on the body's
+/// axes at the beginning, and how each depends on drifts and biases of the unit. Many states can then be moved by it,
+/// each in one step. [Forster2017]
 class Preintegration {
  public:
   /// Means over `dt` [rad/s, m/s^2, s].
@@ -16,12 +17,17 @@ class Preintegration {
   double duration() const { return duration_; }
   /// Without a drift eps of the gyros and a bias nabla of the accelerometers, which do not change within the interval.
   Eigen::Quaterniond rotation(const Vector<3>& eps) const;
-  Vector<3> velocity(const Vector<3>& eps, const Vector<3>& nabla) const { return velocity_ + velocity_by_drift_ * eps + velocity_by_bias_ * nabla; }
-  Vector<3> way(const Vector<3>& eps, const Vector<3>& nabla) const { return way_ + way_by_drift_ * eps + way_by_bias_ * nabla; }
+  Vector<3> velocity(const Vector<3>& eps, const Vector<3>& nabla) const {
+    return velocity_ + velocity_by_drift_ * eps + velocity_by_bias_ * nabla;
+  }
+  Vector<3> way(const Vector<3>& eps, const Vector<3>& nabla) const {
+    return way_ + way_by_drift_ * eps + way_by_bias_ * nabla;
+  }
 
  private:
   double duration_ = 0;
-  Eigen::Quaterniond rotation_ = Eigen::Quaterniond::Identity();  // from the body at the end to the body at the beginning
+  Eigen::Quaterniond rotation_ =
+      Eigen::Quaterniond::Identity();  // from the body at the end to the body at the beginning
   Vector<3> velocity_ = Vector<3>::Zero(), way_ = Vector<3>::Zero();
   Matrix<3> rotation_by_drift_ = Matrix<3>::Zero();  // a drift turns it by minus this, on the axes at the end
   Matrix<3> velocity_by_drift_ = Matrix<3>::Zero(), way_by_drift_ = Matrix<3>::Zero();

@@ -10,8 +10,8 @@ namespace sas_motion {
 struct BridgedGap {
   double force = 1, rate = 0.1;  ///< standard deviations [m/s^2], [rad/s]
 
-  /// Variances of velocity, position and attitude errors by one part of a gap [m^2/s^2, m^2, rad^2]: the parts add up to a force and a rate that are wrong
-  /// throughout. Times in seconds.
+  /// Variances of velocity, position and attitude errors by one part of a gap [m^2/s^2, m^2, rad^2]: the parts add up
+  /// to a force and a rate that are wrong throughout. Times in seconds.
   Vector<9> variance(double gap, double part) const {
     Vector<9> variance;
     variance.segment<3>(0).setConstant(force * force * gap * part);

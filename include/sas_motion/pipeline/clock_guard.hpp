@@ -12,19 +12,23 @@ namespace sas_motion::towfish {
 
 /// Tells a clock that was set from a single wrong stamp.
 ///
-/// A stamp far from the newest believed one, ahead or behind, is held. The next believable one contradicts it: what is held is refused.
-/// Where enough in a row agree with each other instead, and they are enough to start from, the clock was set, or there was a long gap.
+/// A stamp far from the newest believed one, ahead or behind, is held. The next believable one contradicts it: what is
+/// held is refused. Where enough in a row agree with each other instead, and they are enough to start from, the clock
+/// was set, or there was a long gap.
 class ClockGuard {
  public:
   enum class Answer { Believed, Held, ClockSet };
 
-  /// For an estimator that waits `lag` for late measurements: stamps are believed up to `max_gap` after the newest believed one, or the lag
-  /// where that is more, and up to the lag before it, or what is late whatever the lag [s].
-  ClockGuard(double max_gap, double lag) : ahead_(stampFromSeconds(std::max(max_gap, lag))), behind_(stampFromSeconds(std::max(lag, kLateIsNoJump))) {}
+  /// For an estimator that waits `lag` for late measurements: stamps are believed up to `max_gap` after the newest
+  /// believed one, or the lag where that is more, and up to the lag before it, or what is late whatever the lag [s].
+  ClockGuard(double max_gap, double lag)
+      : ahead_(stampFromSeconds(std::max(max_gap, lag))), behind_(stampFromSeconds(std::max(lag, kLateIsNoJump))) {}
 
-  static constexpr double kShortenedStart = 0.5;  ///< of the start's window, after the clock was set: an answer is waited for
+  static constexpr double kShortenedStart =
+      0.5;  ///< of the start's window, after the clock was set: an answer is waited for
 
-  /// What to do with a measurement; refusals of those held before go to `output`. After ClockSet, release() has this one too.
+  /// What to do with a measurement; refusals of those held before go to `output`. After ClockSet, release() has this
+  /// one too.
   Answer judge(const Measurement& z, Output& output);
   /// Hands over the measurements that agree with each other, in order of arrival; they are believed from now on.
   std::vector<Measurement> release();

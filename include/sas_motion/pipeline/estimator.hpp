@@ -47,8 +47,8 @@ struct Output {
 
 /// One estimator fed with measurements as they arrive, live or from a bag.
 ///
-/// What it writes to Output is settled: no measurement inside the lag can change it any more, so it depends on the measurements alone and
-/// not on the order in which they arrived. current() is the best answer at this moment.
+/// What it writes to Output is settled: no measurement inside the lag can change it any more, so it depends on the
+/// measurements alone and not on the order in which they arrived. current() is the best answer at this moment.
 class Estimator {
  public:
   virtual ~Estimator() = default;
@@ -61,11 +61,11 @@ class Estimator {
   virtual std::optional<Estimate> current() const = 0;
   /// The state at any stamp inside the lag or after the newest measurement, or nothing.
   virtual std::optional<Estimate> at(Stamp stamp) const = 0;
-  /// Sets the state at a stamp: what was measured after it is fused again, what was measured before it is settled as it was. Returns a literal
-  /// that says why not, or nothing.
+  /// Sets the state at a stamp: what was measured after it is fused again, what was measured before it is settled as it
+  /// was. Returns a literal that says why not, or nothing.
   virtual const char* setState(const Estimate& state, Output& output);
-  /// Other losses, tunings and gates, for measurements that come from now on; those that came before keep theirs, also when they are replayed.
-  /// Batch smoothers keep what they started with.
+  /// Other losses, tunings and gates, for measurements that come from now on; those that came before keep theirs, also
+  /// when they are replayed. Batch smoothers keep what they started with.
   virtual void configure(const Config&) {}
   /// Why the last finish() has no answer, in plain words; empty where all is well.
   virtual std::string failure() const { return ""; }
@@ -73,8 +73,8 @@ class Estimator {
   virtual void reset() = 0;
 };
 
-/// kf, gated_kf, robust_kf, student_t_kf, mckf, mixture_kf, bank_kf or rts, or robust_kf_LOSS (e.g. robust_kf_cauchy) for robust_kf with that loss at its
-/// customary tuning; null for any other name.
+/// kf, gated_kf, robust_kf, student_t_kf, mckf, mixture_kf, bank_kf or rts, or robust_kf_LOSS (e.g. robust_kf_cauchy)
+/// for robust_kf with that loss at its customary tuning; null for any other name.
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
 
 /// Whether a measurement can be used at all; a literal that says why not, or nothing.

@@ -11,8 +11,8 @@
 
 namespace sas_motion::towfish {
 
-/// Calls `use` with the filter of six states that has this name, set up by `config`; false where no filter has it. A filter that may
-/// disbelieve measurements for good is wrapped so that it can come back; bank_kf does so itself.
+/// Calls `use` with the filter of six states that has this name, set up by `config`; false where no filter has it. A
+/// filter that may disbelieve measurements for good is wrapped so that it can come back; bank_kf does so itself.
 template <class Use>
 bool withFilter(const std::string& name, const Config& config, Use&& use) {
   const auto reacquiring = [&](auto filter) {

@@ -16,8 +16,8 @@ namespace sas_motion::towfish {
 /// The motion from one stamp to a later one about a mean: the model's, unless somebody knows more of it.
 using Motion = std::function<Transition<kStates>(const StateVector& mean, const Input& input, Stamp from, Stamp to)>;
 
-/// A filter's beliefs over a window of measurements in the order of fusion. One that comes late is put in its place, and what comes after
-/// it is fused again.
+/// A filter's beliefs over a window of measurements in the order of fusion. One that comes late is put in its place,
+/// and what comes after it is fused again.
 template <class Filter>
 class FilterHistory {
  public:
@@ -26,7 +26,8 @@ class FilterHistory {
     typename Filter::Belief belief;
     HeldInput input;  ///< the turn rate in force from then on
 
-    Moment(Stamp when, const typename Filter::Belief& what, const HeldInput& in_force) : stamp(when), belief(what), input(in_force) {}
+    Moment(Stamp when, const typename Filter::Belief& what, const HeldInput& in_force)
+        : stamp(when), belief(what), input(in_force) {}
   };
   struct Entry {
     Measurement z;
@@ -34,12 +35,14 @@ class FilterHistory {
     std::optional<Moment> after;           ///< nothing before it is fused
     Audit audit;
 
-    Entry(const Measurement& measurement, std::shared_ptr<const Filter> in_force) : z(measurement), filter(std::move(in_force)) {}
+    Entry(const Measurement& measurement, std::shared_ptr<const Filter> in_force)
+        : z(measurement), filter(std::move(in_force)) {}
   };
 
   FilterHistory(const Model& model, Motion motion) : model_(model), motion_(std::move(motion)) {}
 
-  /// The filter for what comes from now on, and for how long a turn rate is believed [s]. Call it before anything comes.
+  /// The filter for what comes from now on, and for how long a turn rate is believed [s]. Call it before anything
+  /// comes.
   void use(std::shared_ptr<const Filter> filter, double input_hold);
 
   const std::deque<Entry>& entries() const { return entries_; }

@@ -10,8 +10,8 @@
 
 namespace sas_motion::towfish {
 
-/// A filter run over a window of history, so that late measurements are fused at their own time. It decides when to start, what comes too
-/// late and what is settled. When the clock is set, or after a long gap, it starts anew.
+/// A filter run over a window of history, so that late measurements are fused at their own time. It decides when to
+/// start, what comes too late and what is settled. When the clock is set, or after a long gap, it starts anew.
 template <class Filter>
 class FilterTimeline final : public Estimator {
  public:

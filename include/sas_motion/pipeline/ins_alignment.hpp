@@ -25,23 +25,26 @@ using Event = std::variant<Start, Aiding, ImuReading, Audit>;
 Audit refusal(const Aiding& reading, Verdict verdict, const char* reason);
 
 struct AlignmentOptions {
-  double max_age = 1;                   ///< of attitude and velocity when a fix comes [s]
-  double velocity_wait = 10;            ///< for the velocity; then the body is taken to be at rest [s]
-  bool fixes_aid = true;                ///< else they only start the INS, which is as sure of its position as the fix
-  double position_sigma = 30;           ///< far more than a fix is off by: the fix itself, fused at once, says how sure the position is [m]
+  double max_age = 1;         ///< of attitude and velocity when a fix comes [s]
+  double velocity_wait = 10;  ///< for the velocity; then the body is taken to be at rest [s]
+  bool fixes_aid = true;      ///< else they only start the INS, which is as sure of its position as the fix
+  double position_sigma =
+      30;  ///< far more than a fix is off by: the fix itself, fused at once, says how sure the position is [m]
   double velocity_sigma = 1;            ///< the same of the DVL's velocity [m/s]
   double rest_velocity_sigma = 5;       ///< where there is no DVL [m/s]
   double ground_velocity_sigma = 0.05;  ///< of GNSS's velocity where it states none [m/s]
 };
 
-/// Finds the first moment to start at: a fix that comes after an attitude and a velocity. Takes readings in time order, passes them on once
-/// it has started, and refuses those before.
+/// Finds the first moment to start at: a fix that comes after an attitude and a velocity. Takes readings in time order,
+/// passes them on once it has started, and refuses those before.
 ///
-/// The start is at the attitude's stamp. Position and velocity get wide standard deviations and the fix is fused at once, so that the filter
-/// finds what errors they share with GPS and DVL. A velocity that GNSS knows starts it as surely as GNSS says.
+/// The start is at the attitude's stamp. Position and velocity get wide standard deviations and the fix is fused at
+/// once, so that the filter finds what errors they share with GPS and DVL. A velocity that GNSS knows starts it as
+/// surely as GNSS says.
 class Alignment {
  public:
-  Alignment(const AlignmentOptions& options, const Parameters& parameters) : options_(options), parameters_(parameters) {}
+  Alignment(const AlignmentOptions& options, const Parameters& parameters)
+      : options_(options), parameters_(parameters) {}
 
   /// Appends what estimators get of this reading to `events`.
   void take(const Reading& reading, std::vector<Event>& events);

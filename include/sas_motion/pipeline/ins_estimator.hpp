@@ -32,10 +32,12 @@ struct Config {
 struct Solution {
   Stamp stamp = 0;
   NavigationState state;
-  bool moving = true;                                 ///< velocity is known
-  bool lying = true;                                  ///< attitude is known
-  std::optional<Matrix<9>> covariance;                ///< of velocity, position and attitude errors [m/s, m, rad], where the solution has one
-  std::optional<Vector<3>> rate_body = std::nullopt;  ///< of the body over the ground [rad/s], where the solution has one
+  bool moving = true;  ///< velocity is known
+  bool lying = true;   ///< attitude is known
+  std::optional<Matrix<9>>
+      covariance;  ///< of velocity, position and attitude errors [m/s, m, rad], where the solution has one
+  std::optional<Vector<3>> rate_body =
+      std::nullopt;  ///< of the body over the ground [rad/s], where the solution has one
 };
 
 /// The same solution of another point of the body, at a lever arm from the one it is of [m].
@@ -70,8 +72,8 @@ class Estimator {
   virtual std::unique_ptr<Estimator> clone() const { return nullptr; }
 };
 
-/// ckf27, open_loop_ckf27, robust_ckf27, the sensors alone (ins, gps, dvl, and gps_ckf27 ... less their estimated errors), and smooth_ckf27,
-/// smooth_robust_ckf27; null for any other name.
+/// ckf27, open_loop_ckf27, robust_ckf27, the sensors alone (ins, gps, dvl, and gps_ckf27 ... less their estimated
+/// errors), and smooth_ckf27, smooth_robust_ckf27; null for any other name.
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
 
 /// The names makeEstimator knows.

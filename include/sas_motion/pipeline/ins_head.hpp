@@ -10,9 +10,9 @@
 
 namespace sas_motion::ins {
 
-/// The present of an estimator: a copy of the settled one, carried on through the readings whose order can still change. Where one comes late,
-/// it goes back to a checkpoint before it and takes the readings after that again, so that any order of arrival gives the same present.
-/// An estimator that cannot be copied has none.
+/// The present of an estimator: a copy of the settled one, carried on through the readings whose order can still
+/// change. Where one comes late, it goes back to a checkpoint before it and takes the readings after that again, so
+/// that any order of arrival gives the same present. An estimator that cannot be copied has none.
 class Head {
  public:
   using Readings = std::deque<Reading>;
@@ -27,8 +27,8 @@ class Head {
 
   /// The newest solution.
   const std::optional<Solution>& current() const { return current_; }
-  /// The solution at any stamp from the last settled one on: between two stamps of the inertial unit integrated with the means of that interval,
-  /// after the newest with the last ones, up to `furthest` [s].
+  /// The solution at any stamp from the last settled one on: between two stamps of the inertial unit integrated with
+  /// the means of that interval, after the newest with the last ones, up to `furthest` [s].
   std::optional<Solution> at(const Estimator& settled, const Readings& open, Stamp stamp, double furthest) const;
 
  private:

@@ -28,8 +28,9 @@ struct Audit {
   Verdict verdict = Verdict::Accepted;
   double nis = 0;
   Vector<3> weights = Vector<3>::Ones();
-  Vector<3> innovation = Vector<3>::Zero();  ///< what the INS says minus the reading, less the errors that are known of both
-  Matrix<3> S = Matrix<3>::Zero();           ///< its covariance, before any weighting
+  Vector<3> innovation =
+      Vector<3>::Zero();            ///< what the INS says minus the reading, less the errors that are known of both
+  Matrix<3> S = Matrix<3>::Zero();  ///< its covariance, before any weighting
   int iterations = 0;
   const char* reason = "";    ///< plain words, a literal; empty where there is nothing to say
   double effective_size = 0;  ///< of a filter's particles, where it has several
@@ -46,8 +47,8 @@ struct NavigatorOptions {
 /// The variance by a part of a gap of the inertial unit in the model's units, see BridgedGap.
 Errors gapVariance(const BridgedGap& bridge, double gap, double part);
 
-/// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of the INS itself (feedback)
-/// or of its output (open loop). (C.4)
+/// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of
+/// the INS itself (feedback) or of its output (open loop). (C.4)
 ///
 /// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale.
 template <class Filter>
@@ -55,7 +56,8 @@ class Navigator {
  public:
   using Options = NavigatorOptions;
 
-  Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start, Stamp stamp, const Options& options);
+  Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start, Stamp stamp,
+            const Options& options);
 
   void add(const Aiding& reading) { waiting_.push_back(reading); }
   /// Returns what became of the reading; audits() then are those of what it let be fused.
@@ -66,7 +68,8 @@ class Navigator {
   NavigationState fused() const { return corrected(ins_.state(), belief_.mean, model_.unit()); }
   /// Of the body over the ground; body [rad/s].
   Vector<3> rate_body() const { return rateOverGround(ins_.state(), ins_.rate_body()); }
-  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors; the attitude is the fused one.
+  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors;
+  /// the attitude is the fused one.
   struct Fix {
     Stamp stamp = 0;
     NavigationState state;

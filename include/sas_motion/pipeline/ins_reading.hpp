@@ -37,8 +37,8 @@ inline Stamp stampOf(const Reading& reading) {
   return aiding ? aiding->stamp : std::get<GroundVelocity>(reading).stamp;
 }
 
-/// The place of a reading among those that come in any order: by time; at one stamp first the velocity, which the fix finds then, the others by sensor,
-/// and the inertial unit last, since it integrates up to its stamp.
+/// The place of a reading among those that come in any order: by time; at one stamp first the velocity, which the fix
+/// finds then, the others by sensor, and the inertial unit last, since it integrates up to its stamp.
 inline std::tuple<Stamp, std::size_t> placeOf(const Reading& reading) {
   if (std::holds_alternative<GroundVelocity>(reading)) return {stampOf(reading), 0};
   const auto* aiding = std::get_if<Aiding>(&reading);

@@ -11,9 +11,9 @@
 
 namespace sas_motion::ins {
 
-/// Puts readings that come in any order into that of time, as long as none is later than a lag behind the inertial unit, whose stamps are the
-/// clock. One stamp of it far from the others is not believed; where several in a row agree with each other, the clock was set, or there was
-/// a long gap.
+/// Puts readings that come in any order into that of time, as long as none is later than a lag behind the inertial
+/// unit, whose stamps are the clock. One stamp of it far from the others is not believed; where several in a row agree
+/// with each other, the clock was set, or there was a long gap.
 class ReadingQueue {
  public:
   enum class Answer {
@@ -25,7 +25,8 @@ class ReadingQueue {
   };
 
   /// Stamps are believed up to `max_gap`, or the lag where that is more, after the newest of the inertial unit [s].
-  ReadingQueue(double lag, double max_gap) : lag_(stampFromSeconds(lag)), max_gap_(stampFromSeconds(std::max(lag, max_gap))) {}
+  ReadingQueue(double lag, double max_gap)
+      : lag_(stampFromSeconds(lag)), max_gap_(stampFromSeconds(std::max(lag, max_gap))) {}
 
   Answer insert(const Reading& reading);
   /// Where the last reading that was taken is among the open ones.

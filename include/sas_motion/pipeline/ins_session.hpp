@@ -32,12 +32,14 @@ struct Lane {
 /// What became of the readings of the inertial unit.
 struct InertialCounts {
   std::array<std::uint64_t, kImuVerdicts> verdicts{};  ///< by ImuVerdict
-  std::uint64_t late = 0, duplicate = 0, far = 0;      ///< left out before: older than the lag, same stamp, a stamp far from the others
-  double longest_gap = 0, mean_period = 0;             ///< of the readings that were integrated [s]
+  std::uint64_t late = 0, duplicate = 0,
+                far = 0;  ///< left out before: older than the lag, same stamp, a stamp far from the others
+  double longest_gap = 0, mean_period = 0;  ///< of the readings that were integrated [s]
 };
 
-/// A run of estimators over readings that come in any order inside the lag, live or from a bag alike: puts them in time order, finds the start,
-/// and starts anew where the clock was set. What it says is settled: it depends on the readings alone and not on their order.
+/// A run of estimators over readings that come in any order inside the lag, live or from a bag alike: puts them in time
+/// order, finds the start, and starts anew where the clock was set. What it says is settled: it depends on the readings
+/// alone and not on their order.
 class Session {
  public:
   /// Throws std::invalid_argument where the factory knows no such estimator.

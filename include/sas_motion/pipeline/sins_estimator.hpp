@@ -16,10 +16,11 @@ namespace sas_motion::sins {
 struct Config {
   Parameters parameters;
   Mechanisation::Options imu;
-  UnscentedParticleOptions particles;  ///< number, threads, seed; the estimator's name says the weighting and whether there is a loss
-  bool accelerometer_bias = true;      ///< 19 states; else the paper's 16
-  double longest_step = 1;             ///< of one prediction of the filter [s]
-  bool vectorised = true;              ///< square-root filters by vector instructions, where there are any
+  UnscentedParticleOptions
+      particles;  ///< number, threads, seed; the estimator's name says the weighting and whether there is a loss
+  bool accelerometer_bias = true;  ///< 19 states; else the paper's 16
+  double longest_step = 1;         ///< of one prediction of the filter [s]
+  bool vectorised = true;          ///< square-root filters by vector instructions, where there are any
 };
 
 /// The same where an alignment found the start and the lever arms.
@@ -39,9 +40,9 @@ const std::vector<NamedFilter>& namedFilters();
 /// Null for an unknown name.
 const NamedFilter* findFilter(const std::string& name);
 
-/// pf, upf, ss_srupf, their forms, ss_srukf, ukf, and beside them the fusion by small angles, ckf27 and robust_ckf27; null for any other name. The INS is
-/// mechanised from its readings and, but for the latter, never corrected; its estimated errors are taken out of the solution. Audits hold the effective
-/// number of particles.
+/// pf, upf, ss_srupf, their forms, ss_srukf, ukf, and beside them the fusion by small angles, ckf27 and robust_ckf27;
+/// null for any other name. The INS is mechanised from its readings and, but for the latter, never corrected; its
+/// estimated errors are taken out of the solution. Audits hold the effective number of particles.
 std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config);
 
 /// The same sensors as the fusion by small angles is told of them.

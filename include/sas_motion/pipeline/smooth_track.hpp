@@ -8,8 +8,8 @@
 
 namespace sas_motion {
 
-/// For imaging: what an INS measures, integrated, which follows a fused solution's velocity and position slowly, so that no reading makes it jump or
-/// bend within an aperture.
+/// For imaging: what an INS measures, integrated, which follows a fused solution's velocity and position slowly, so
+/// that no reading makes it jump or bend within an aperture.
 class SmoothTrack {
  public:
   struct Options {
@@ -20,7 +20,8 @@ class SmoothTrack {
 
   /// The fused solution has moved, without a reading, for `dt` seconds.
   void move(const NavigationState& fused, double dt) {
-    displace(state_, displacement(fused_, fused) + dt * lag_ + dt / options_.position_time * displacement(state_, fused));
+    displace(state_,
+             displacement(fused_, fused) + dt * lag_ + dt / options_.position_time * displacement(state_, fused));
     lag_ *= std::exp(-dt / options_.velocity_time);
     fused_ = fused;
   }

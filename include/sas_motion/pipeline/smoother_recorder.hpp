@@ -10,10 +10,11 @@
 namespace sas_motion::towfish {
 
 /// A residual and its weights at a smoothed state. There is no innovation covariance: S and NIS stay zero.
-Audit smoothedAudit(const Measurement& z, const StateVector& x, const Model& model, const Vector<2>& weights, int iterations);
+Audit smoothedAudit(const Measurement& z, const StateVector& x, const Model& model, const Vector<2>& weights,
+                    int iterations);
 
-/// A batch smoother as an estimator: it records every usable measurement and solves when the data end. Should more come and end, it solves all
-/// since the last reset() anew and puts all of it out again.
+/// A batch smoother as an estimator: it records every usable measurement and solves when the data end. Should more come
+/// and end, it solves all since the last reset() anew and puts all of it out again.
 class SmootherRecorder final : public Estimator {
  public:
   using Solve = std::function<SmootherResult(const SmoothingProblem&)>;

@@ -14,10 +14,11 @@ struct Influence {
 
 enum class LossKind { L2, Huber, PseudoHuber, Cauchy, Tukey, GemanMcClure, Welsch, Dcs };
 
-/// A loss rho(r) of a whitened residual r (unit variance when all is well), as M-estimation uses it [Huber1981, Zhang1997].
+/// A loss rho(r) of a whitened residual r (unit variance when all is well), as M-estimation uses it [Huber1981,
+/// Zhang1997].
 ///
-/// Scaled so that rho(r) = r^2 / 2 and weight(r) = 1 near r = 0. The tuning c has the unit of r (for dcs, of r^2); the customary values (95 % efficiency
-/// on Gaussian data for most) are the defaults. As c grows every loss becomes L2.
+/// Scaled so that rho(r) = r^2 / 2 and weight(r) = 1 near r = 0. The tuning c has the unit of r (for dcs, of r^2); the
+/// customary values (95 % efficiency on Gaussian data for most) are the defaults. As c grows every loss becomes L2.
 class Loss {
  public:
   /// Throws std::invalid_argument where `tuning` is not positive and finite.

@@ -8,16 +8,17 @@
 
 namespace sas_motion {
 
-/// What is believed of the variance of M independent channels, each over its stated variance: inverse gamma densities, by how many readings
-/// they rest on and the sum of those readings' normalised squares. [Sarkka2009, Sarkka2013]
+/// What is believed of the variance of M independent channels, each over its stated variance: inverse gamma densities,
+/// by how many readings they rest on and the sum of those readings' normalised squares. [Sarkka2009, Sarkka2013]
 ///
-/// Forgetting makes the estimate late where the noise changes: by 1 / (1 - rho) steps. `trend` 1 takes that back, as far as the change goes on
-/// as it did (Brown's double exponential smoothing, of the logarithm); 0 is the literal filter.
+/// Forgetting makes the estimate late where the noise changes: by 1 / (1 - rho) steps. `trend` 1 takes that back, as
+/// far as the change goes on as it did (Brown's double exponential smoothing, of the logarithm); 0 is the literal
+/// filter.
 template <int M>
 class VariationalNoise {
  public:
-  /// Begins with an expectation for each channel, as if from this many readings; in the terms of an inverse Wishart's degrees of freedom u
-  /// that is u - M - 1.
+  /// Begins with an expectation for each channel, as if from this many readings; in the terms of an inverse Wishart's
+  /// degrees of freedom u that is u - M - 1.
   explicit VariationalNoise(const Vector<M>& factor = Vector<M>::Ones(), double readings = 20)
       : count_(Vector<M>::Constant(readings)), sum_(readings * factor), late_(factor.array().log()) {}
 
@@ -39,7 +40,8 @@ class VariationalNoise {
   VariationalNoise with(const Vector<M>& squares, const Vector<M>& present, double limit) const {
     VariationalNoise result = *this;
     result.count_ += present;
-    result.sum_ = (sum_ + squares.cwiseProduct(present)).cwiseMax(result.count_ / limit).cwiseMin(result.count_ * limit);
+    result.sum_ =
+        (sum_ + squares.cwiseProduct(present)).cwiseMax(result.count_ / limit).cwiseMin(result.count_ * limit);
     const Vector<M> now = result.sum_.cwiseQuotient(result.count_).array().log();
     result.late_ += (now - late_).cwiseQuotient(result.count_).cwiseProduct(present);
     return result;

@@ -15,8 +15,8 @@
 
 namespace sas_motion::ros_side {
 
-/// Keeps the measurements of a whole run and solves them on ~solve_batch, in a thread of its own: solving takes seconds, and so does
-/// publishing the answer no faster than a recorder takes it.
+/// Keeps the measurements of a whole run and solves them on ~solve_batch, in a thread of its own: solving takes
+/// seconds, and so does publishing the answer no faster than a recorder takes it.
 class BatchSolver {
  public:
   /// `settings` outlive the solver.

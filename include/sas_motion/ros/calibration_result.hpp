@@ -19,7 +19,9 @@ struct CalibrationResult {
 
   /// What the answer should be, as a correction of the nominal mounting; nothing without truth.
   std::optional<usbl::State> truth() const;
-  usbl::Mounting mounting() const { return usbl::corrected(recording.nominal, comparison.best().x.head<usbl::kStates>()); }
+  usbl::Mounting mounting() const {
+    return usbl::corrected(recording.nominal, comparison.best().x.head<usbl::kStates>());
+  }
   std::string arrayFrame() const { return recording.array_frame.empty() ? "usbl_link" : recording.array_frame; }
   /// Of the answer, in each minute from the first ping on: of any channel.
   std::vector<std::size_t> outliersByMinute() const;

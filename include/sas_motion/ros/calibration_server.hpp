@@ -27,9 +27,10 @@ struct CalibrationTolerance {
   double lever_arm = 0.1;           ///< [m]
 };
 
-/// A USBL calibration while the vessel sails: fed with GNSS, attitude, transponder and USBL messages it publishes after every ping, for each
-/// filter NAME, NAME/calibration and NAME/update, and says on /diagnostics whether the track shows every unknown and whether the answer is
-/// good enough. ~save writes what calibrate_usbl would of the same messages; ~reset begins anew.
+/// A USBL calibration while the vessel sails: fed with GNSS, attitude, transponder and USBL messages it publishes after
+/// every ping, for each filter NAME, NAME/calibration and NAME/update, and says on /diagnostics whether the track shows
+/// every unknown and whether the answer is good enough. ~save writes what calibrate_usbl would of the same messages;
+/// ~reset begins anew.
 class CalibrationServer {
  public:
   /// Throws ConfigError or std::invalid_argument where a parameter is wrong.

@@ -16,8 +16,8 @@
 #include "sas_motion/pipeline/estimator.hpp"
 #include "sas_motion/ros/settings.hpp"
 
-/// The only place where the estimators' axes (north, east, clockwise heading) meet those of REP-103 (east, north, counter-clockwise yaw;
-/// body x forward, y left, z up).
+/// The only place where the estimators' axes (north, east, clockwise heading) meet those of REP-103 (east, north,
+/// counter-clockwise yaw; body x forward, y left, z up).
 namespace sas_motion::ros_side {
 
 using towfish::Audit;
@@ -32,12 +32,14 @@ Transform transformOf(const geometry_msgs::Transform& message);
 inline Stamp stampOf(const ros::Time& time) { return static_cast<Stamp>(time.toNSec()); }
 ros::Time timeOf(Stamp stamp);
 
-/// Each message gives up to two measurements. What is absent in a message (no fix, no orientation, covariance[0] = -1) is left out;
-/// what is wrong in it comes through and is refused by the estimators, which count it.
-std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const LocalFrame& frame, const Transform& T_base_gnss,
+/// Each message gives up to two measurements. What is absent in a message (no fix, no orientation, covariance[0] = -1)
+/// is left out; what is wrong in it comes through and is refused by the estimators, which count it.
+std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const LocalFrame& frame,
+                                        const Transform& T_base_gnss, const towfish::Config& config);
+std::vector<Measurement> measurementsOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu,
                                         const towfish::Config& config);
-std::vector<Measurement> measurementsOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu, const towfish::Config& config);
-std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovarianceStamped& twist, const Transform& T_base_dvl, const towfish::Config& config);
+std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovarianceStamped& twist,
+                                        const Transform& T_base_dvl, const towfish::Config& config);
 
 /// True where a fix says where it is: has a fix, and coordinates on Earth.
 bool hasPosition(const sensor_msgs::NavSatFix& fix);

@@ -24,15 +24,18 @@
 
 namespace sas_motion::ros_side {
 
-/// Estimators behind ROS topics: the body of both nodelets. Fed with sensor messages it publishes, for each estimator NAME,
+/// Estimators behind ROS topics: the body of both nodelets. Fed with sensor messages it publishes, for each estimator
+/// NAME,
 ///   NAME/odometry, NAME/fix, NAME/current             the best answer now, after every measurement
-///   NAME/settled, NAME/settled_current, NAME/update   each stamp's final answer and the audit, once no late data can change them
+///   NAME/settled, NAME/settled_current, NAME/update   each stamp's final answer and the audit, once no late data can
+///   change them
 /// and /diagnostics, the datum, and tf of the first estimator. All callbacks run on one queue, and none
 /// of them sleeps.
 class EstimatorServer {
  public:
   /// Throws ConfigError or std::invalid_argument where a parameter is wrong.
-  EstimatorServer(const ros::NodeHandle& node, const ros::NodeHandle& own, const std::vector<std::string>& default_estimators);
+  EstimatorServer(const ros::NodeHandle& node, const ros::NodeHandle& own,
+                  const std::vector<std::string>& default_estimators);
 
  private:
   struct Lane {

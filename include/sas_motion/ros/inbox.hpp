@@ -19,7 +19,8 @@ namespace sas_motion::ros_side {
 class SensorFrames {
  public:
   /// `transforms` outlives this.
-  SensorFrames(const tf2::BufferCore& transforms, std::string base_frame) : transforms_(transforms), base_frame_(std::move(base_frame)) {}
+  SensorFrames(const tf2::BufferCore& transforms, std::string base_frame)
+      : transforms_(transforms), base_frame_(std::move(base_frame)) {}
 
   /// The pose of a frame in the base frame, or nothing while tf knows none.
   std::optional<Transform> find(const std::string& frame_id) const;
@@ -38,28 +39,31 @@ struct MessageCounts {
   std::uint64_t lost = 0;           ///< gaps in header.seq
   std::uint64_t disabled = 0;       ///< left, since the source is disabled
   bool may_fall_silent = false;     ///< of a source that is only needed at the start
-  Stamp newest = 0;                 ///< of the newest message, which need not have the highest stamp: a clock may be wrong
+  Stamp newest = 0;  ///< of the newest message, which need not have the highest stamp: a clock may be wrong
 };
 
-/// Messages on their way from several sources to their conversion, live and from a bag alike: finds where the sensor sits, keeps messages of a
-/// frame that is not yet known for a while, and counts what it refuses and what was lost on the way.
+/// Messages on their way from several sources to their conversion, live and from a bag alike: finds where the sensor
+/// sits, keeps messages of a frame that is not yet known for a while, and counts what it refuses and what was lost on
+/// the way.
 class Inbox {
  public:
-  Inbox(const SensorFrames& frames, double timeout, std::size_t sources) : frames_(frames), timeout_(timeout), sources_(sources) {}
+  Inbox(const SensorFrames& frames, double timeout, std::size_t sources)
+      : frames_(frames), timeout_(timeout), sources_(sources) {}
 
   /// Counts a message; returns whether it is wanted. For sources without a place on the body.
   bool count(const std_msgs::Header& header, std::size_t source);
   void countUnusable(std::size_t source) { ++sources_[source].counts.unusable; }
 
-  /// Hands a message to `convert(message, T_base_sensor)`, now or when its frame is known; it returns whether there was a reading, or nothing
-  /// where the message has to wait.
+  /// Hands a message to `convert(message, T_base_sensor)`, now or when its frame is known; it returns whether there was
+  /// a reading, or nothing where the message has to wait.
   template <class Message, class Convert>
   void receive(const Message& message, std::size_t source, const Convert& convert) {
     if (!count(message.header, source)) return;
     if (!waiting_.empty()) retry();
     const auto attempt = [this, message, source, convert] {
       const auto T_base_sensor = frames_.find(message.header.frame_id);
-      const std::optional<bool> read = T_base_sensor ? std::optional<bool>(convert(message, *T_base_sensor)) : std::nullopt;
+      const std::optional<bool> read =
+          T_base_sensor ? std::optional<bool>(convert(message, *T_base_sensor)) : std::nullopt;
       if (read && !*read) ++sources_[source].counts.unusable;
       return read.has_value();
     };

@@ -9,8 +9,8 @@
 
 namespace sas_motion::ros_side {
 
-/// Turns messages into readings of the 27-state system, live and from a bag alike. Lever arms are from the inertial unit, so that the others
-/// wait for its first message. The first fix sets the datum, unless the settings do.
+/// Turns messages into readings of the 27-state system, live and from a bag alike. Lever arms are from the inertial
+/// unit, so that the others wait for its first message. The first fix sets the datum, unless the settings do.
 class InsIngest {
  public:
   using Sink = std::function<void(const ins::Reading&)>;
@@ -33,7 +33,9 @@ class InsIngest {
   Inbox& inbox() { return inbox_; }
   const Inbox& inbox() const { return inbox_; }
   /// The base from the INS; body [m].
-  Vector<3> base_lever_body() const { return InsMount{Transform::Identity(), T_base_imu_.value_or(Transform::Identity())}.lever_body(); }
+  Vector<3> base_lever_body() const {
+    return InsMount{Transform::Identity(), T_base_imu_.value_or(Transform::Identity())}.lever_body();
+  }
 
  private:
   template <class Message>

@@ -12,6 +12,7 @@ namespace sas_motion::ros_side {
 /// Why estimators have not started, with the topic that is to blame; empty where they have.
 std::string whyNotStarted(const ins::Alignment& alignment, const InsSettings& settings);
 /// What is wrong with the data, a sentence each: gaps, wrong rates, wrong stamps, sensors without readings.
-std::vector<std::string> remarksOn(const ins::InertialCounts& inertial, const Inbox& inbox, const InsSettings& settings);
+std::vector<std::string> remarksOn(const ins::InertialCounts& inertial, const Inbox& inbox,
+                                   const InsSettings& settings);
 
 }  // namespace sas_motion::ros_side

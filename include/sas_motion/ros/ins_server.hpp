@@ -20,7 +20,8 @@
 
 namespace sas_motion::ros_side {
 
-/// The estimators of a system with an INS behind ROS topics. Fed with sensor messages it publishes, for each estimator NAME,
+/// The estimators of a system with an INS behind ROS topics. Fed with sensor messages it publishes, for each estimator
+/// NAME,
 ///   NAME/odometry, NAME/fix     the best answer now, at the output rate
 ///   NAME/settled, NAME/update   the final answers and the audit, once no late data can change them
 /// and /diagnostics, the datum, and tf of the first estimator. All callbacks run on one queue, and none of them sleeps.

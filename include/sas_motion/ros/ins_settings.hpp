@@ -9,8 +9,9 @@
 
 namespace sas_motion::ros_side {
 
-/// The configuration file of a system with an INS: the estimators' settings, and what ties them to messages. Its `system` says which: the fusion of INS, GPS
-/// and DVL (ins_gps_dvl), or SINS and DVL with large attitude errors (sins_dvl).
+/// The configuration file of a system with an INS: the estimators' settings, and what ties them to messages. Its
+/// `system` says which: the fusion of INS, GPS and DVL (ins_gps_dvl), or SINS and DVL with large attitude errors
+/// (sins_dvl).
 struct InsSettings : MapSettings {
   ins::Settings estimation;
   ins::EstimatorFactory make;              ///< of the system's estimators

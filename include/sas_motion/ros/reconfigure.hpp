@@ -11,7 +11,8 @@
 
 namespace sas_motion::ros_side {
 
-/// Losses, their tuning and the gate by dynamic_reconfigure. It starts with the configuration given, not with values of an earlier run.
+/// Losses, their tuning and the gate by dynamic_reconfigure. It starts with the configuration given, not with values of
+/// an earlier run.
 class Reconfigure {
  public:
   using Changed = std::function<void(const towfish::Config&)>;

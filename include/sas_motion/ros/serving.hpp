@@ -23,7 +23,8 @@ constexpr std::uint32_t kQueue = 1000;  // messages kept for a slow callback or 
 // A whole recording at once would overrun its subscribers: rosbag record keeps 100 messages of a topic.
 constexpr std::size_t kBurst = 25;       // messages of a topic at once
 constexpr double kBetweenBursts = 0.05;  // [s]
-constexpr std::size_t kWithEach = 4;     // settled answers published after a message at most: more than there are measurements in one
+constexpr std::size_t kWithEach =
+    4;  // settled answers published after a message at most: more than there are measurements in one
 
 /// Replaces `value` by a private parameter where there is one. Throws ConfigError.
 template <class T>
@@ -38,14 +39,17 @@ void publishTo(const ros::Publisher& publisher, const Make& make) {
 }
 
 /// map -> odom, the identity since one estimate serves both, and odom -> base.
-void broadcastPose(tf2_ros::TransformBroadcaster& broadcaster, const nav_msgs::Odometry& odometry, const MapSettings& settings);
+void broadcastPose(tf2_ros::TransformBroadcaster& broadcaster, const nav_msgs::Odometry& odometry,
+                   const MapSettings& settings);
 
 /// Answers ~enable_sensor by enable(index, bool) of the sensors of these names.
 template <class Names, class Enable>
-bool enableSensor(const Names& names, const Enable& enable, const EnableSensor::Request& request, EnableSensor::Response& response) {
+bool enableSensor(const Names& names, const Enable& enable, const EnableSensor::Request& request,
+                  EnableSensor::Response& response) {
   const auto found = std::find(names.begin(), names.end(), request.sensor);
   response.success = found != names.end();
-  response.message = response.success ? "" : fmt::format("'{}' is no sensor; known are {}", request.sensor, fmt::join(names, ", "));
+  response.message =
+      response.success ? "" : fmt::format("'{}' is no sensor; known are {}", request.sensor, fmt::join(names, ", "));
   if (response.success) enable(static_cast<std::size_t>(found - names.begin()), request.enabled);
   return true;
 }
@@ -55,9 +59,11 @@ using DiagnosticStatus = diagnostic_updater::DiagnosticStatusWrapper;
 /// Of each source messages, losses, and age; what is silent, disabled, or of an unknown frame.
 template <class Names>
 void diagnoseSources(const Inbox& inbox, const Names& names, const MapSettings& settings, DiagnosticStatus& status);
-void diagnoseSource(const MessageCounts& counts, bool enabled, const std::string& name, Stamp newest, const MapSettings& settings, DiagnosticStatus& status);
+void diagnoseSource(const MessageCounts& counts, bool enabled, const std::string& name, Stamp newest,
+                    const MapSettings& settings, DiagnosticStatus& status);
 /// `verdicts` are counts by Verdict.
-void diagnoseVerdicts(const std::string& estimator, const std::array<std::uint64_t, 5>& verdicts, DiagnosticStatus& status);
+void diagnoseVerdicts(const std::string& estimator, const std::array<std::uint64_t, 5>& verdicts,
+                      DiagnosticStatus& status);
 void diagnoseLatency(const LatencyMeter& latency, const LatencyMeter& callback, DiagnosticStatus& status);
 
 template <class Names>

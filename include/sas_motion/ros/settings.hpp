@@ -22,7 +22,8 @@ struct MapSettings {
   void readMap(YamlSection& yaml);
 };
 
-/// The configuration file of a towfish's nodelets and of reprocess: the estimators' settings, and what ties them to messages.
+/// The configuration file of a towfish's nodelets and of reprocess: the estimators' settings, and what ties them to
+/// messages.
 struct Settings : MapSettings {
   towfish::Config estimation;
   std::string fix_topic = "gnss/fix";

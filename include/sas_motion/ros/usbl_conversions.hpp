@@ -15,12 +15,14 @@
 /// The only place where the calibration's axes (starboard, forward, up) meet those of REP-103 (forward, port, up).
 namespace sas_motion::ros_side {
 
-/// Range, angle to starboard, angle to forward. A channel whose stated variance is unusable takes the settings' or is absent.
+/// Range, angle to starboard, angle to forward. A channel whose stated variance is unusable takes the settings' or is
+/// absent.
 usbl::Reading readingOf(const sas_motion::UsblMeasurement& message, const UsblSettings& settings);
 /// The message of a reading; a direction's variance is that of the first which is there.
 sas_motion::UsblMeasurement measurementOf(const usbl::Reading& reading);
 
-/// v_map = C v_body of the base frame, from the orientation of the sensor at T_base_imu; nothing where the message has none.
+/// v_map = C v_body of the base frame, from the orientation of the sensor at T_base_imu; nothing where the message has
+/// none.
 std::optional<Matrix<3>> rotationOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu);
 /// The orientation that such a rotation has in a message.
 geometry_msgs::Quaternion orientationOf(const Matrix<3>& C_map_body);

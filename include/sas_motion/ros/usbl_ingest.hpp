@@ -13,8 +13,9 @@
 
 namespace sas_motion::ros_side {
 
-/// Turns messages into the pings of a calibration, live and from a bag alike: finds where antenna, attitude sensor and array sit by tf2, and
-/// counts what it refuses. The transform to the array's frame, where there is one at the first measurement, is the nominal mounting.
+/// Turns messages into the pings of a calibration, live and from a bag alike: finds where antenna, attitude sensor and
+/// array sit by tf2, and counts what it refuses. The transform to the array's frame, where there is one at the first
+/// measurement, is the nominal mounting.
 class UsblIngest {
  public:
   /// Messages that gave nothing; readings that gave no ping are counted by the builder.

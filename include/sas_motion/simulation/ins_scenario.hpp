@@ -30,8 +30,9 @@ struct Scenario {
   double duration = 1200;  ///< [s]
   Track track;
   Parameters parameters;
-  double imu_rate = 100;                                                                                                       ///< [1/s]
-  std::array<Readings, kSensors> sensors{Readings{1, {}, {}}, Readings{5, {}, {}}, Readings{1, {}, {}}, Readings{0, {}, {}}};  ///< by Sensor
+  double imu_rate = 100;  ///< [1/s]
+  std::array<Readings, kSensors> sensors{Readings{1, {}, {}}, Readings{5, {}, {}}, Readings{1, {}, {}},
+                                         Readings{0, {}, {}}};  ///< by Sensor
   /// Micronavigation from each ping to the next; its rate is that of pings.
   struct Dpc {
     double white_along = 2e-3, white_sight = 0.2e-3;  ///< [m/s]

@@ -50,8 +50,8 @@ class AidingSource {
 /// In the order of their stamps; those of one stamp stay as they are.
 void sortByStamp(std::vector<LabelledAiding>& aiding);
 
-/// Draws a run: (0.4) with the errors of (C.1), (C.3), (C.4). The same scenario and seed give the same numbers; sensors have streams of their
-/// own.
+/// Draws a run: (0.4) with the errors of (C.1), (C.3), (C.4). The same scenario and seed give the same numbers; sensors
+/// have streams of their own.
 Recording simulate(const Scenario& scenario, const Trajectory& trajectory, std::uint64_t seed);
 
 }  // namespace sas_motion::ins

@@ -24,7 +24,8 @@ struct Track {
   double turn_rate = 4 * kRadPerDeg;  ///< largest in a turn [rad/s]
   Wave pitch{2 * kRadPerDeg, 6, 0.8}, roll{3 * kRadPerDeg, 7, 0.8}, yaw{1 * kRadPerDeg, 10, 0.8};
   Wave heave{0.3, 6, 0}, sway{0.3, 7, 1};
-  bool along_bow = false;  ///< the way goes where the bow points, which yaws and pitches, as a towed body's does; else along the course
+  bool along_bow = false;  ///< the way goes where the bow points, which yaws and pitches, as a towed body's does; else
+                           ///< along the course
 };
 
 /// The true motion at a time.
@@ -40,8 +41,8 @@ struct TruthSample {
   Vector<3> forceBody() const;
 };
 
-/// Position, velocity, acceleration, attitude and its rate as functions of time, each the exact derivative of the other: turns are a fifth
-/// degree polynomial of the course, the way along them a Gauss quadrature.
+/// Position, velocity, acceleration, attitude and its rate as functions of time, each the exact derivative of the
+/// other: turns are a fifth degree polynomial of the course, the way along them a Gauss quadrature.
 class Trajectory {
  public:
   /// Throws std::invalid_argument where a speed, rate, length or period is not positive.

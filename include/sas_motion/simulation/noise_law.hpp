@@ -13,7 +13,8 @@ namespace sas_motion {
 /// Whose noise a law is for: not every law makes sense for both.
 enum class NoiseUse { Sensor, Process };
 
-/// How noise is distributed, by name; sizes are in units of the good standard deviation, times in seconds since the start.
+/// How noise is distributed, by name; sizes are in units of the good standard deviation, times in seconds since the
+/// start.
 ///   gaussian       N(0, 1)
 ///   contaminated   (1 - epsilon) N(0, 1) + epsilon N(0, K^2), the paper's mixed normal [Zhu2007]
 ///   student_t      Student's t of nu degrees of freedom
@@ -28,17 +29,31 @@ enum class NoiseUse { Sensor, Process };
 ///   quantised      the measurement is rounded to multiples of the quantum
 ///   manoeuvre      of the process: now and then for `length` seconds, all its noise K times larger
 struct NoiseLaw {
-  enum class Kind { Gaussian, Contaminated, Burst, StudentT, Step, Ramp, Frozen, Dropout, Multipath, Correlated, Varying, Quantised, Manoeuvre };
+  enum class Kind {
+    Gaussian,
+    Contaminated,
+    Burst,
+    StudentT,
+    Step,
+    Ramp,
+    Frozen,
+    Dropout,
+    Multipath,
+    Correlated,
+    Varying,
+    Quantised,
+    Manoeuvre
+  };
   Kind kind = Kind::Gaussian;
-  double epsilon = 0;                                   ///< share of outliers [-]
-  double K = 1;                                         ///< their size, or a burst's [-]
-  double rate = 0;                                      ///< spells a second [1/s]
-  double length = 0;                                    ///< of a spell [s]
-  double epoch = 0;                                     ///< contaminated process: one draw for all states holds this long; 0: one a state and step [s]
-  double nu = 4;                                        ///< degrees of freedom [-]
-  double bias = 0;                                      ///< [-]
-  double slope = 0;                                     ///< [1/s]
-  double t0 = 0;                                        ///< [s]
+  double epsilon = 0;  ///< share of outliers [-]
+  double K = 1;        ///< their size, or a burst's [-]
+  double rate = 0;     ///< spells a second [1/s]
+  double length = 0;   ///< of a spell [s]
+  double epoch = 0;    ///< contaminated process: one draw for all states holds this long; 0: one a state and step [s]
+  double nu = 4;       ///< degrees of freedom [-]
+  double bias = 0;     ///< [-]
+  double slope = 0;    ///< [1/s]
+  double t0 = 0;       ///< [s]
   double t1 = std::numeric_limits<double>::infinity();  ///< [s]
   double probability = 0;                               ///< of a draw [-]
   double mean = 1;                                      ///< of the exponential [-]

@@ -20,7 +20,8 @@ struct NoiseSample {
   double quantum = 0;    ///< the measurement is rounded to multiples of this; 0 for no rounding
 };
 
-constexpr double kSaysNothing = 1e6;  ///< what an oracle is told of a reading without information: its variance over the good one
+constexpr double kSaysNothing =
+    1e6;  ///< what an oracle is told of a reading without information: its variance over the good one
 
 /// Spells that begin now and then, `rate` a second, and last `length` seconds; they do not touch.
 class Spells {
@@ -37,7 +38,8 @@ class Spells {
 class NoiseSource {
  public:
   /// Rows of one sensor that share a `spell_stream` have their bursts, freezes and drop-outs together.
-  NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t stream, std::optional<std::uint64_t> spell_stream = {});
+  NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t stream,
+              std::optional<std::uint64_t> spell_stream = {});
   NoiseSample draw(double time);
 
  private:

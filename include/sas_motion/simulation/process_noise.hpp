@@ -10,8 +10,8 @@
 
 namespace sas_motion {
 
-/// Draws the whitened process noise of several states over time. Manoeuvres and contaminations that hold for an epoch make the noise of
-/// all states larger together; every other law is drawn for each state on its own.
+/// Draws the whitened process noise of several states over time. Manoeuvres and contaminations that hold for an epoch
+/// make the noise of all states larger together; every other law is drawn for each state on its own.
 class ProcessNoise {
  public:
   static constexpr int kMostStates = 6;
@@ -44,7 +44,8 @@ class ProcessNoise {
   double last_time_ = 0;
 };
 
-/// The covariance of L w, L L^T = Q, where the elements of the whitened noise w have these variances: what an oracle makes of a draw.
+/// The covariance of L w, L L^T = Q, where the elements of the whitened noise w have these variances: what an oracle
+/// makes of a draw.
 template <int N>
 Matrix<N> toldCovariance(const Matrix<N>& Q, const Vector<N>& variance) {
   const Matrix<N> L = Q.llt().matrixL();

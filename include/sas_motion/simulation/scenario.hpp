@@ -27,7 +27,8 @@ struct CurrentFront {
   Vector<2> change = Vector<2>::Zero();  ///< north, east [m/s]
 };
 
-/// What a simulated survey is like. `random_walk` draws truth from the motion model; `survey` sails parallel lines with turns at the ends.
+/// What a simulated survey is like. `random_walk` draws truth from the motion model; `survey` sails parallel lines with
+/// turns at the ends.
 struct Scenario {
   enum class Kind { RandomWalk, Survey };
 

@@ -15,18 +15,21 @@ namespace sas_motion::towfish {
 struct TruthSample {
   Stamp stamp = 0;
   StateVector state = StateVector::Zero();
-  double turn_rate = 0;                                ///< [rad/s]
-  StateVector process_variance = StateVector::Ones();  ///< random walk: of the whitened noise of the step that led here, over the good one [-]
+  double turn_rate = 0;  ///< [rad/s]
+  StateVector process_variance =
+      StateVector::Ones();  ///< random walk: of the whitened noise of the step that led here, over the good one [-]
 };
 
-/// A measurement and, for each of its rows, whether its noise was an outlier and what an oracle is told of its variance.
+/// A measurement and, for each of its rows, whether its noise was an outlier and what an oracle is told of its
+/// variance.
 struct LabelledMeasurement {
   Measurement z;
   std::array<bool, 2> outlier{};
   std::array<double, 2> variance{1, 1};  ///< over the good variance [-]
 };
 
-/// Plays a scenario step by step: truth, and what the sensors measure of it. The same scenario and seed give the same numbers.
+/// Plays a scenario step by step: truth, and what the sensors measure of it. The same scenario and seed give the same
+/// numbers.
 class Simulator {
  public:
   Simulator(const Scenario& scenario, std::uint64_t seed);

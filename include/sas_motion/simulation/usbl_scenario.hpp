@@ -25,7 +25,8 @@ struct Track {
   double speed = 2;                      ///< [m/s]
 };
 
-/// A calibration at sea: the vessel, the array, the transponder and their noise. [ZhangTao; defaults of the paper where it prints them]
+/// A calibration at sea: the vessel, the array, the transponder and their noise. [ZhangTao; defaults of the paper where
+/// it prints them]
 struct Scenario {
   std::string name;
   double duration = 1000;  ///< [s]

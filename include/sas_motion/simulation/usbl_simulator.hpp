@@ -42,8 +42,8 @@ class Vessel {
   std::size_t next_ = 1;
 };
 
-/// Draws what the sensors say. Streams of noise are apart: the same pings with any rate of GNSS. The same scenario and seed give the same
-/// numbers.
+/// Draws what the sensors say. Streams of noise are apart: the same pings with any rate of GNSS. The same scenario and
+/// seed give the same numbers.
 class Simulator {
  public:
   Simulator(const Scenario& scenario, std::uint64_t seed);

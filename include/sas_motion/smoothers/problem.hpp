@@ -14,7 +14,8 @@ namespace sas_motion::towfish {
 ///
 ///     1/2 |x_0 - m_0|^2_{P_0} + 1/2 sum |x_{k+1} - f(x_k)|^2_{Q_k} + sum rho((z - h(x_k)) / sigma)
 ///
-/// with one rho for each scalar row. Q_k is frozen at the initial trajectory, so that all smoothers minimise the same function.
+/// with one rho for each scalar row. Q_k is frozen at the initial trajectory, so that all smoothers minimise the same
+/// function.
 struct SmoothingProblem {
   Model model;
   Gaussian<kStates> prior;                ///< of node 0, before its measurements
@@ -23,7 +24,7 @@ struct SmoothingProblem {
   std::vector<StateMatrix> Q;             ///< process noise on the way into each node; unused for node 0
   std::vector<StateVector> initial;       ///< where iterations start
   std::vector<Measurement> measurements;  ///< with rows, in time order
-  std::vector<std::size_t> first;         ///< node k has measurements first[k] to first[k + 1]; one more than there are nodes
+  std::vector<std::size_t> first;  ///< node k has measurements first[k] to first[k + 1]; one more than there are nodes
 
   std::size_t nodes() const { return stamps.size(); }
   double dt(std::size_t node) const { return secondsBetween(stamps[node - 1], stamps[node]); }
@@ -39,8 +40,8 @@ struct SmootherResult {
   std::string failure;
 };
 
-/// Builds the problem from measurements in time order, or nothing where they do not start (no position or no heading). The initial
-/// trajectory is the robust Kalman filter's.
+/// Builds the problem from measurements in time order, or nothing where they do not start (no position or no heading).
+/// The initial trajectory is the robust Kalman filter's.
 std::optional<SmoothingProblem> buildProblem(const std::vector<Measurement>& measurements, const Config& config);
 
 /// The objective at a trajectory.
@@ -50,6 +51,7 @@ double cost(const SmoothingProblem& problem, const Loss& loss, const std::vector
 Vector<2> weightsAt(const Measurement& z, const StateVector& x, const Model& model, const Loss& loss);
 
 /// The loss's weight of every measurement row at a trajectory.
-std::vector<Vector<2>> weightsAt(const SmoothingProblem& problem, const Loss& loss, const std::vector<StateVector>& states);
+std::vector<Vector<2>> weightsAt(const SmoothingProblem& problem, const Loss& loss,
+                                 const std::vector<StateVector>& states);
 
 }  // namespace sas_motion::towfish

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Compiled once for each vector instruction set; the best one this machine has is chosen when the program runs. Lanes are the innermost dimension
-// and every other is a loop, so this little code serves all sizes.
+// Compiled once for each vector instruction set; the best one this machine has is chosen when the program runs. Lanes
+// are the innermost dimension and every other is a loop, so this little code serves all sizes.
 #include "sas_motion/filters/particles/blocks.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -49,7 +49,8 @@ HWY_INLINE void spreadPart(const double* root, const double* shared, int states,
   }
 }
 
-HWY_INLINE void averagePart(const double* mean_weights, const double* root_weights, int rows, int points, double* landed, double* mean) {
+HWY_INLINE void averagePart(const double* mean_weights, const double* root_weights, int rows, int points,
+                            double* landed, double* mean) {
   for (int i = 0; i < rows; ++i) {
     double* const row = landed + kLanes * i * points;
     const auto reference = load(row, 0);
@@ -131,8 +132,8 @@ HWY_INLINE void solveLower(const double* S_root, int rows, int columns, int colu
   }
 }
 
-/// Takes the squares of the gain's rows out of the root, as subtractSquare of math/square_root.hpp, all at once column by column. 1 where that
-/// leaves a positive definite matrix. Spoils the gain. [Gill1974]
+/// Takes the squares of the gain's rows out of the root, as subtractSquare of math/square_root.hpp, all at once column
+/// by column. 1 where that leaves a positive definite matrix. Spoils the gain. [Gill1974]
 HWY_INLINE Doubles subtractSquares(double* root, double* gain, int rows, int states) {
   double rotation[3 * kLanes * kMostRows];  // cosine, its inverse, sine
   auto positive = all(1);
@@ -162,7 +163,8 @@ HWY_INLINE Doubles subtractSquares(double* root, double* gain, int rows, int sta
 }
 
 HWY_INLINE void conditionPart(const Conditioning& b, double* whitened, int lane) {
-  double *const S_root = b.S_root + lane, *const gain = b.gain + lane, *const mean = b.mean + lane, *const root = b.root + lane;
+  double *const S_root = b.S_root + lane, *const gain = b.gain + lane, *const mean = b.mean + lane,
+                *const root = b.root + lane;
   crossMoments(b, lane);
   addSquaresPart(S_root, b.rows, b.deviations + lane, b.points);
   auto nis = hn::Zero(D());
@@ -183,7 +185,8 @@ HWY_INLINE void conditionPart(const Conditioning& b, double* whitened, int lane)
   store(hn::IfThenElseZero(hn::Eq(finite, hn::Zero(D())), positive), b.done + lane, 0);
 }
 
-HWY_INLINE void addSecondMomentsPart(const double* root, const double* offset, const double* weight, int states, double* sum) {
+HWY_INLINE void addSecondMomentsPart(const double* root, const double* offset, const double* weight, int states,
+                                     double* sum) {
   const auto w = load(weight, 0);
   for (int i = 0; i < states; ++i)
     for (int j = 0; j <= i; ++j) {
@@ -197,7 +200,8 @@ void spreadHere(const double* root, const double* shared, int states, double* of
   forEachPart([&](int lane) { spreadPart(root + lane, shared, states, offsets + lane); });
 }
 
-void averageHere(const double* mean_weights, const double* root_weights, int rows, int points, double* landed, double* mean) {
+void averageHere(const double* mean_weights, const double* root_weights, int rows, int points, double* landed,
+                 double* mean) {
   forEachPart([&](int lane) { averagePart(mean_weights, root_weights, rows, points, landed + lane, mean + lane); });
 }
 
@@ -235,13 +239,18 @@ bool available() { return true; }
 
 const char* target() { return HWY_DYNAMIC_DISPATCH(targetHere)(); }
 
-void spread(const double* root, const double* shared, int states, double* offsets) { HWY_DYNAMIC_DISPATCH(spreadHere)(root, shared, states, offsets); }
+void spread(const double* root, const double* shared, int states, double* offsets) {
+  HWY_DYNAMIC_DISPATCH(spreadHere)(root, shared, states, offsets);
+}
 
-void average(const double* mean_weights, const double* root_weights, int rows, int points, double* landed, double* mean) {
+void average(const double* mean_weights, const double* root_weights, int rows, int points, double* landed,
+             double* mean) {
   HWY_DYNAMIC_DISPATCH(averageHere)(mean_weights, root_weights, rows, points, landed, mean);
 }
 
-void addSquares(double* root, int size, double* A, int count) { HWY_DYNAMIC_DISPATCH(addSquaresHere)(root, size, A, count); }
+void addSquares(double* root, int size, double* A, int count) {
+  HWY_DYNAMIC_DISPATCH(addSquaresHere)(root, size, A, count);
+}
 
 void condition(const Conditioning& block) { HWY_DYNAMIC_DISPATCH(conditionHere)(block); }
 

@@ -46,7 +46,9 @@ double ParticleWeights::effectiveSize() const {
   return 1 / squares;
 }
 
-std::size_t ParticleWeights::heaviest() const { return static_cast<std::size_t>(std::max_element(values_.begin(), values_.end()) - values_.begin()); }
+std::size_t ParticleWeights::heaviest() const {
+  return static_cast<std::size_t>(std::max_element(values_.begin(), values_.end()) - values_.begin());
+}
 
 void resampleSystematically(const std::vector<double>& weights, double uniform, std::vector<std::size_t>& parents) {
   const auto count = static_cast<double>(parents.size());

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kLongestChain = 20000;  // nodes that elimination may recurse through
 
-/// In time order, which is fastest. Elimination recurses along the tree, though, and a long chain would overflow the stack: nested dissection
-/// then, whose tree is as deep as the logarithm.
+/// In time order, which is fastest. Elimination recurses along the tree, though, and a long chain would overflow the
+/// stack: nested dissection then, whose tree is as deep as the logarithm.
 gtsam::Ordering ordering(const gtsam::NonlinearFactorGraph& graph, std::size_t nodes) {
   return nodes > kLongestChain ? gtsam::Ordering::Metis(graph) : gtsam::Ordering::Natural(graph);
 }
@@ -27,13 +27,14 @@ std::vector<StateVector> trajectoryOf(const gtsam::Values& values) {
   return trajectory;
 }
 
-void addMarginals(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values& values, gtsam::Marginals::Factorization factorization,
-                  SmootherResult& result) {
+void addMarginals(const gtsam::NonlinearFactorGraph& graph, const gtsam::Values& values,
+                  gtsam::Marginals::Factorization factorization, SmootherResult& result) {
   const auto order = values.size() > kLongestChain ? gtsam::Ordering::Metis(graph) : gtsam::Ordering::Colamd(graph);
   const gtsam::Marginals marginals(graph, values, order, factorization);
   const auto trajectory = trajectoryOf(values);
   result.states.resize(trajectory.size());
-  for (std::size_t k = 0; k < trajectory.size(); ++k) result.states[k] = {trajectory[k], marginals.marginalCovariance(k)};
+  for (std::size_t k = 0; k < trajectory.size(); ++k)
+    result.states[k] = {trajectory[k], marginals.marginalCovariance(k)};
 }
 
 using Factorization = gtsam::Marginals::Factorization;
@@ -44,8 +45,10 @@ gtsam::NonlinearFactorGraph buildGraph(const SmoothingProblem& problem, const Lo
   gtsam::NonlinearFactorGraph graph;
   graph.emplace_shared<PriorStateFactor>(0, problem.prior);
   for (std::size_t k = 0; k < problem.nodes(); ++k) {
-    if (k > 0) graph.emplace_shared<MotionFactor>(k - 1, k, problem.model, problem.inputs[k], problem.dt(k), problem.Q[k]);
-    for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j) addRows(graph, k, problem.model, problem.measurements[j], loss);
+    if (k > 0)
+      graph.emplace_shared<MotionFactor>(k - 1, k, problem.model, problem.inputs[k], problem.dt(k), problem.Q[k]);
+    for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j)
+      addRows(graph, k, problem.model, problem.measurements[j], loss);
   }
   return graph;
 }
@@ -88,7 +91,8 @@ SmootherResult smoothGnc(const SmoothingProblem& problem, double probability) {
     for (std::size_t i = 0; i < graph.size(); ++i)
       if (!dynamic_cast<const RowFactor*>(graph.at(i).get())) trusted.push_back(i);
     params.setKnownInliers(trusted);
-    gtsam::GncOptimizer<gtsam::GncParams<gtsam::LevenbergMarquardtParams>> optimizer(graph, initialValues(problem.initial), params);
+    gtsam::GncOptimizer<gtsam::GncParams<gtsam::LevenbergMarquardtParams>> optimizer(
+        graph, initialValues(problem.initial), params);
     optimizer.setInlierCostThresholdsAtProbability(probability);
     const gtsam::Values values = optimizer.optimize();
 
@@ -105,7 +109,8 @@ SmootherResult smoothGnc(const SmoothingProblem& problem, double probability) {
       if (k > 0) ++factor;
       for (std::size_t j = problem.first[k]; j < problem.first[k + 1]; ++j) {
         Vector<2> row_weights = Vector<2>::Ones();
-        for (int row = 0; row < rowsOf(problem.measurements[j].sensor); ++row) row_weights(row) = weights(static_cast<Eigen::Index>(factor++));
+        for (int row = 0; row < rowsOf(problem.measurements[j].sensor); ++row)
+          row_weights(row) = weights(static_cast<Eigen::Index>(factor++));
         result.weights.push_back(row_weights);
       }
     }

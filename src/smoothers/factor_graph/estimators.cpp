@@ -10,16 +10,19 @@ namespace sas_motion::towfish {
 
 std::unique_ptr<Estimator> makeAnyEstimator(const std::string& name, const Config& config) {
   if (name == "batch")
-    return std::make_unique<SmootherRecorder>(config, [options = config.batch](const SmoothingProblem& problem) { return smoothBatch(problem, options); });
+    return std::make_unique<SmootherRecorder>(
+        config, [options = config.batch](const SmoothingProblem& problem) { return smoothBatch(problem, options); });
   if (name == "gnc")
-    return std::make_unique<SmootherRecorder>(config, [p = config.gnc_probability](const SmoothingProblem& problem) { return smoothGnc(problem, p); });
+    return std::make_unique<SmootherRecorder>(
+        config, [p = config.gnc_probability](const SmoothingProblem& problem) { return smoothGnc(problem, p); });
   if (name == "fixed_lag") return std::make_unique<FixedLagSmoother>(config);
   return makeEstimator(name, config);
 }
 
 const std::vector<std::string>& estimatorNames() {
-  static const std::vector<std::string> names{"kf",      "gated_kf", "robust_kf", "student_t_kf", "mckf",     "mixture_kf",
-                                              "bank_kf", "rts",      "batch",     "gnc",          "fixed_lag"};
+  static const std::vector<std::string> names{"kf",    "gated_kf",   "robust_kf", "student_t_kf",
+                                              "mckf",  "mixture_kf", "bank_kf",   "rts",
+                                              "batch", "gnc",        "fixed_lag"};
   return names;
 }
 

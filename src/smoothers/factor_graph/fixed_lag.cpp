@@ -15,7 +15,8 @@
 namespace sas_motion::towfish {
 namespace {
 
-constexpr double kMargin = 1;  // GTSAM's window is this much longer, so that a node is put out before it is marginalised [s]
+constexpr double kMargin =
+    1;  // GTSAM's window is this much longer, so that a node is put out before it is marginalised [s]
 
 gtsam::ISAM2Params isamParameters() {
   gtsam::ISAM2Params params;
@@ -92,7 +93,9 @@ struct FixedLagSmoother::Window {
     belief.mean = newest;
   }
 
-  Estimate estimate(const Node& node) const { return {node.stamp, {smoother.calculateEstimate<StateVector>(node.key), smoother.marginalCovariance(node.key)}}; }
+  Estimate estimate(const Node& node) const {
+    return {node.stamp, {smoother.calculateEstimate<StateVector>(node.key), smoother.marginalCovariance(node.key)}};
+  }
 
   Config config;
   Model model;
@@ -110,7 +113,10 @@ struct FixedLagSmoother::Window {
 };
 
 FixedLagSmoother::FixedLagSmoother(const Config& config)
-    : config_(config), clock_(config.max_gap, config.fixed_lag.reorder), start_window_(config.start.window), window_(std::make_unique<Window>(config)) {}
+    : config_(config),
+      clock_(config.max_gap, config.fixed_lag.reorder),
+      start_window_(config.start.window),
+      window_(std::make_unique<Window>(config)) {}
 FixedLagSmoother::~FixedLagSmoother() = default;
 
 void FixedLagSmoother::process(const Measurement& z, Output& output) {
@@ -126,7 +132,8 @@ void FixedLagSmoother::process(const Measurement& z, Output& output) {
 void FixedLagSmoother::startAnew(Output& output) {
   const auto agreed = clock_.release();
   settleAll(output);
-  for (const auto& z : waiting_) output.audits.push_back(refusal(z, Verdict::Stale, "before the first position and heading"));
+  for (const auto& z : waiting_)
+    output.audits.push_back(refusal(z, Verdict::Stale, "before the first position and heading"));
   forget();
   start_window_ = config_.start.window * ClockGuard::kShortenedStart;
   for (const auto& z : agreed) insert(z, output);
@@ -152,8 +159,8 @@ void FixedLagSmoother::release(Stamp until, Output& output) {
   while (!waiting_.empty() && waiting_.front().stamp <= until) {
     const Measurement z = waiting_.front();
     waiting_.pop_front();
-    const bool due =
-        z.stamp > window_->nodes.back().stamp && window_->nodes.back().stamp - window_->solved >= stampFromSeconds(config_.fixed_lag.solve_interval);
+    const bool due = z.stamp > window_->nodes.back().stamp && window_->nodes.back().stamp - window_->solved >=
+                                                                  stampFromSeconds(config_.fixed_lag.solve_interval);
     if (due) solve(output);  // the newest node is complete
     released_ = z.stamp;
     window_->add(z);
@@ -186,11 +193,13 @@ void FixedLagSmoother::solve(Output& output) {
   }
 }
 
-/// Starts a new window from the companion filter's belief; the nodes of the old one are put out with what is known of them: nothing.
+/// Starts a new window from the companion filter's belief; the nodes of the old one are put out with what is known of
+/// them: nothing.
 void FixedLagSmoother::rebuild(Output& output) {
   ++rebuilds_;
   for (const auto& node : window_->nodes)
-    for (const auto& z : node.measurements) output.audits.push_back(refusal(z, Verdict::Invalid, "the solver failed and was rebuilt"));
+    for (const auto& z : node.measurements)
+      output.audits.push_back(refusal(z, Verdict::Invalid, "the solver failed and was rebuilt"));
   auto fresh = std::make_unique<Window>(config_);
   fresh->input = window_->input;
   fresh->start(window_->belief, window_->nodes.back().stamp);

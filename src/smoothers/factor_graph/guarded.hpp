@@ -21,8 +21,9 @@ inline std::string firstSentence(std::string text) {
   return text;
 }
 
-/// Runs a solver by Cholesky and, where GTSAM finds the system indeterminate, by QR, which stands worse conditioning (nodes a microsecond
-/// apart, long stretches without a sensor). What QR throws becomes data: the `failure` of the result, which else stays as it was given.
+/// Runs a solver by Cholesky and, where GTSAM finds the system indeterminate, by QR, which stands worse conditioning
+/// (nodes a microsecond apart, long stretches without a sensor). What QR throws becomes data: the `failure` of the
+/// result, which else stays as it was given.
 template <class Result, class Solve>
 Result guarded(Result result, Solve solve) {
   try {

@@ -26,7 +26,8 @@ ImuVerdict InsChain::add(const ImuReading& reading, std::vector<Audit>& audits, 
   if (step.verdict == ImuVerdict::Implausible || step.verdict == ImuVerdict::OutOfOrder) return step.verdict;
   gap_ = step.verdict == ImuVerdict::Bridged ? step.dt : 0;
   // What the filter audited are the first of those that waited, in the order of their stamps.
-  std::stable_sort(waiting_.begin(), waiting_.end(), [](const Aiding& a, const Aiding& b) { return a.stamp < b.stamp; });
+  std::stable_sort(waiting_.begin(), waiting_.end(),
+                   [](const Aiding& a, const Aiding& b) { return a.stamp < b.stamp; });
   const auto& audited = filter_.audits();
   for (std::size_t i = 0; i < audited.size(); ++i) {
     if (audited[i].verdict == Verdict::Stale || audited[i].verdict == Verdict::Invalid) {

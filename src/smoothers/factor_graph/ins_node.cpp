@@ -11,7 +11,8 @@ Node Node::retract(const Vector<kNodeStates>& e) const {
   moved.state.velocity_nav += e.segment<3>(kVelocity);
   displace(moved.state, e.segment<3>(kPosition));
   const Vector<3> phi = kMilliradian * e.segment<3>(kAttitude);
-  moved.state.q_nav_body = Eigen::Quaterniond(Eigen::AngleAxisd(-phi.norm(), phi.stableNormalized())) * state.q_nav_body;
+  moved.state.q_nav_body =
+      Eigen::Quaterniond(Eigen::AngleAxisd(-phi.norm(), phi.stableNormalized())) * state.q_nav_body;
   moved.state.q_nav_body.normalize();
   moved.wandering += e.tail<9>();
   return moved;
@@ -25,11 +26,14 @@ Vector<kNodeStates> Node::localCoordinates(const Node& computed) const {
 }
 
 void Node::print(const std::string& prefix) const {
-  std::cout << prefix << state.latitude << " " << state.longitude << " " << state.height << " " << state.velocity_nav.transpose() << " "
-            << state.q_nav_body.coeffs().transpose() << " " << wandering.transpose() << "\n";
+  std::cout << prefix << state.latitude << " " << state.longitude << " " << state.height << " "
+            << state.velocity_nav.transpose() << " " << state.q_nav_body.coeffs().transpose() << " "
+            << wandering.transpose() << "\n";
 }
 
-bool Node::equals(const Node& other, double tolerance) const { return localCoordinates(other).cwiseAbs().maxCoeff() <= tolerance; }
+bool Node::equals(const Node& other, double tolerance) const {
+  return localCoordinates(other).cwiseAbs().maxCoeff() <= tolerance;
+}
 
 Errors errorsOf(const Node& node, const Constants& constants) {
   Errors e = Errors::Zero();

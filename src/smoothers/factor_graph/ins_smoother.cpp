@@ -37,7 +37,8 @@ void InsSmoother::take(Output& output) {
   if (!options_.window || secondsBetween(solved_, newest) < options_.window->solve_interval) return;
   solve(kLiveIterations, kLiveTolerance, output);
   std::size_t settled = 0;
-  while (settled + 1 < window_->size() && secondsBetween(window_->stamp(settled), newest) > options_.window->lag) ++settled;
+  while (settled + 1 < window_->size() && secondsBetween(window_->stamp(settled), newest) > options_.window->lag)
+    ++settled;
   settle(settled, output);
 }
 
@@ -96,8 +97,9 @@ void InsSmoother::putOut(std::size_t node, Output& output) const {
     const double share = secondsBetween(window_->stamp(node), piece.end) / way.duration;
     Node on_way = to;
     on_way.state = ins.state();
-    output.solutions.push_back({piece.end, on_way.retract(-share * missed).state, true, true,
-                                Matrix<9>((1 - share) * window_->covariance(node) + share * window_->covariance(node + 1))});
+    output.solutions.push_back(
+        {piece.end, on_way.retract(-share * missed).state, true, true,
+         Matrix<9>((1 - share) * window_->covariance(node) + share * window_->covariance(node + 1))});
   });
 }
 

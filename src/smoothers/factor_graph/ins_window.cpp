@@ -27,8 +27,8 @@ struct Optimum {
 
 bool isNode(gtsam::Key key) { return key < kConstantsKey; }
 
-/// The covariance of each node of a chain, last one first, from its Bayes net, whose nodes come in time order before the constants: each
-/// node is known given the next one and the constants, whose covariance is known.
+/// The covariance of each node of a chain, last one first, from its Bayes net, whose nodes come in time order before
+/// the constants: each node is known given the next one and the constants, whose covariance is known.
 template <class Visit>
 void visitCovariances(const gtsam::GaussianBayesNet& net, const Visit& visit) {
   std::map<gtsam::Key, Eigen::Index> place;  // of what is known in P
@@ -37,7 +37,8 @@ void visitCovariances(const gtsam::GaussianBayesNet& net, const Visit& visit) {
   for (auto it = net.end(); it != net.begin();) {
     const gtsam::GaussianConditional& conditional = **--it;
     const gtsam::Key key = conditional.front();
-    const gtsam::Matrix root = conditional.R().triangularView<Eigen::Upper>().solve(gtsam::Matrix::Identity(conditional.rows(), conditional.rows()));
+    const gtsam::Matrix root = conditional.R().triangularView<Eigen::Upper>().solve(
+        gtsam::Matrix::Identity(conditional.rows(), conditional.rows()));
     gtsam::Matrix gain = gtsam::Matrix::Zero(root.rows(), P.cols());
     for (auto parent = conditional.beginParents(); parent != conditional.endParents(); ++parent) {
       const auto S = conditional.S(parent);
@@ -63,7 +64,8 @@ Matrix<9> inSiUnits(const gtsam::Matrix& covariance) {
 
 }  // namespace
 
-InsWindow::InsWindow(const ErrorModel& model, const Loss& loss, const NavigationState& fused, const Gaussian<kStates>& belief, Stamp stamp)
+InsWindow::InsWindow(const ErrorModel& model, const Loss& loss, const NavigationState& fused,
+                     const Gaussian<kStates>& belief, Stamp stamp)
     : model_(std::make_shared<const ErrorModel>(model)), loss_(loss) {
   const Parameters& p = model.parameters();
   places_.push_back({next_key_++, stamp});
@@ -95,7 +97,8 @@ void InsWindow::add(const InsChain::Stop& stop) {
     if (reading.lever_body) place(reading.sensor, *reading.lever_body);
     Reading added{reading.stamp, reading.sensor, {}};
     for (int row = 0; row < rowsOf(reading.sensor); ++row)
-      added.rows.push_back(boost::make_shared<AidingFactor>(places_.back().key, model_, reading, stop.rate_body, row, loss_));
+      added.rows.push_back(
+          boost::make_shared<AidingFactor>(places_.back().key, model_, reading, stop.rate_body, row, loss_));
     for (const auto& row : added.rows) graph_.push_back(row);
     places_.back().readings.push_back(added);
   }
@@ -114,18 +117,22 @@ std::string InsWindow::solve(int max_iterations, double tolerance) {
     Optimum found;
     const bool by_qr = factorization == gtsam::Marginals::QR;
     auto params = levenbergMarquardt(max_iterations, tolerance, factorization);
-    params.linearSolverType = by_qr ? gtsam::NonlinearOptimizerParams::SEQUENTIAL_QR : gtsam::NonlinearOptimizerParams::SEQUENTIAL_CHOLESKY;
+    params.linearSolverType =
+        by_qr ? gtsam::NonlinearOptimizerParams::SEQUENTIAL_QR : gtsam::NonlinearOptimizerParams::SEQUENTIAL_CHOLESKY;
     params.ordering = gtsam::Ordering::Natural(graph_);
     gtsam::LevenbergMarquardtOptimizer optimizer(graph_, values_, params);
     found.values = optimizer.optimize();
     found.cost = optimizer.error();
-    const gtsam::GaussianFactorGraph::Eliminate eliminate = by_qr ? gtsam::GaussianFactorGraph::Eliminate(gtsam::EliminateQR) : gtsam::EliminatePreferCholesky;
+    const gtsam::GaussianFactorGraph::Eliminate eliminate =
+        by_qr ? gtsam::GaussianFactorGraph::Eliminate(gtsam::EliminateQR) : gtsam::EliminatePreferCholesky;
     found.net = graph_.linearize(found.values)->eliminateSequential(*params.ordering, eliminate);
     return found;
   });
   if (!optimum.failure.empty()) return optimum.failure;
   values_ = optimum.values;
-  visitCovariances(*optimum.net, [&](gtsam::Key key, const gtsam::Matrix& P) { places_[key - places_.front().key].covariance = inSiUnits(P); });
+  visitCovariances(*optimum.net, [&](gtsam::Key key, const gtsam::Matrix& P) {
+    places_[key - places_.front().key].covariance = inSiUnits(P);
+  });
   return "";
 }
 
@@ -134,10 +141,12 @@ void InsWindow::forget(std::size_t count) {
   const gtsam::Key first_kept = places_[count].key;
   const auto forgotten = [&](gtsam::Key key) { return key < first_kept; };
   gtsam::NonlinearFactorGraph touched, kept;
-  for (const auto& factor : graph_) (forgotten(*std::min_element(factor->begin(), factor->end())) ? touched : kept).push_back(factor);
+  for (const auto& factor : graph_)
+    (forgotten(*std::min_element(factor->begin(), factor->end())) ? touched : kept).push_back(factor);
   gtsam::KeyVector order;
   for (std::size_t k = 0; k < count; ++k) order.push_back(places_[k].key);
-  const auto rest = touched.linearize(values_)->eliminatePartialSequential(gtsam::Ordering(order), gtsam::EliminateQR).second;
+  const auto rest =
+      touched.linearize(values_)->eliminatePartialSequential(gtsam::Ordering(order), gtsam::EliminateQR).second;
   for (const auto& factor : *rest) kept.emplace_shared<gtsam::LinearContainerFactor>(factor, values_);
   graph_ = kept;
   for (const auto key : order) values_.erase(key);

@@ -8,10 +8,12 @@
 namespace sas_motion {
 
 /// For a start that is near the solution, as a filter's trajectory or a calibration's prior is: begins as Gauss-Newton.
-inline gtsam::LevenbergMarquardtParams levenbergMarquardt(int max_iterations, double tolerance, gtsam::Marginals::Factorization factorization) {
+inline gtsam::LevenbergMarquardtParams levenbergMarquardt(int max_iterations, double tolerance,
+                                                          gtsam::Marginals::Factorization factorization) {
   using Solvers = gtsam::NonlinearOptimizerParams;
   gtsam::LevenbergMarquardtParams params;
-  params.linearSolverType = factorization == gtsam::Marginals::QR ? Solvers::MULTIFRONTAL_QR : Solvers::MULTIFRONTAL_CHOLESKY;
+  params.linearSolverType =
+      factorization == gtsam::Marginals::QR ? Solvers::MULTIFRONTAL_QR : Solvers::MULTIFRONTAL_CHOLESKY;
   params.maxIterations = static_cast<std::size_t>(max_iterations);
   params.relativeErrorTol = tolerance;
   params.absoluteErrorTol = 0;

@@ -8,7 +8,9 @@
 
 namespace sas_motion {
 
-void LossEstimator::print(const std::string& prefix) const { std::cout << prefix << lossName(loss_.kind()) << " " << loss_.tuning() << "\n"; }
+void LossEstimator::print(const std::string& prefix) const {
+  std::cout << prefix << lossName(loss_.kind()) << " " << loss_.tuning() << "\n";
+}
 
 bool LossEstimator::equals(const gtsam::noiseModel::mEstimator::Base& other, double tolerance) const {
   const auto* same = dynamic_cast<const LossEstimator*>(&other);

@@ -11,7 +11,8 @@ namespace sas_motion::towfish {
 MotionFactor::MotionFactor(Key from, Key to, const Model& model, const Input& input, double dt, const StateMatrix& Q)
     : NoiseModelFactor2(gtsam::noiseModel::Gaussian::Covariance(Q), from, to), model_(model), input_(input), dt_(dt) {}
 
-gtsam::Vector MotionFactor::evaluateError(const StateVector& from, const StateVector& to, boost::optional<gtsam::Matrix&> H_from,
+gtsam::Vector MotionFactor::evaluateError(const StateVector& from, const StateVector& to,
+                                          boost::optional<gtsam::Matrix&> H_from,
                                           boost::optional<gtsam::Matrix&> H_to) const {
   if (H_to) *H_to = StateMatrix::Identity();
   if (!H_from) return Model::difference(to, model_.predict(from, input_, dt_));

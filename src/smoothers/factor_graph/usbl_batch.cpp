@@ -57,7 +57,8 @@ Matrix<kUnknowns> marginalCovariance(const gtsam::NonlinearFactorGraph& graph, c
   if (keys.empty()) return tangent;
   const auto joint = gtsam::Marginals(graph, valuesFrom(prior, x)).jointMarginalCovariance(keys);
   for (const gtsam::Key a : keys)
-    for (const gtsam::Key b : keys) tangent.block(firstUnknown(a), firstUnknown(b), countUnknowns(a), countUnknowns(b)) = joint(a, b);
+    for (const gtsam::Key b : keys)
+      tangent.block(firstUnknown(a), firstUnknown(b), countUnknowns(a), countUnknowns(b)) = joint(a, b);
   return chart(x) * tangent * chart(x).transpose();
 }
 
@@ -65,8 +66,9 @@ Fit solveFactorGraph(const Problem& problem, const FitOptions& options, const Un
   Fit fit = guarded(beginning(problem, start), [&](Factorization factorization) {
     Fit found = beginning(problem, start);
     const auto graph = buildGraph(problem, options.loss, start);
-    gtsam::LevenbergMarquardtOptimizer optimizer(graph, valuesFrom(problem.prior, start),
-                                                 levenbergMarquardt(options.max_iterations, options.tolerance, factorization));
+    gtsam::LevenbergMarquardtOptimizer optimizer(
+        graph, valuesFrom(problem.prior, start),
+        levenbergMarquardt(options.max_iterations, options.tolerance, factorization));
     found.x = unknownsFrom(optimizer.optimize(), start);
     found.cost = optimizer.error();
     found.iterations = static_cast<int>(optimizer.iterations());
@@ -88,7 +90,8 @@ Fit solveGnc(const Problem& problem, double probability, const Unknowns& start) 
     const std::size_t priors = keysOf(problem.prior).size();
     for (std::size_t i = 0; i < priors; ++i) trusted.push_back(i);
     params.setKnownInliers(trusted);
-    gtsam::GncOptimizer<gtsam::GncParams<gtsam::LevenbergMarquardtParams>> optimizer(graph, valuesFrom(problem.prior, start), params);
+    gtsam::GncOptimizer<gtsam::GncParams<gtsam::LevenbergMarquardtParams>> optimizer(
+        graph, valuesFrom(problem.prior, start), params);
     optimizer.setInlierCostThresholdsAtProbability(probability);
 
     Fit fit = beginning(problem, start);
@@ -113,7 +116,9 @@ Fit solveGnc(const Problem& problem, double probability, const Unknowns& start) 
 
 Fitter makeFitter(const std::string& name) {
   constexpr double kGoodKept = 0.99;
-  const Fitter batch = [](const Problem& problem, const FitOptions& options) { return fit(problem, options, solveFactorGraph); };
+  const Fitter batch = [](const Problem& problem, const FitOptions& options) {
+    return fit(problem, options, solveFactorGraph);
+  };
   if (name == "batch") return batch;
   if (name != "gnc") return {};
   return [batch](const Problem& problem, const FitOptions& options) {

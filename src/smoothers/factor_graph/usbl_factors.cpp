@@ -58,14 +58,17 @@ Matrix<3> mountingAnglesJacobian(const Vector<3>& angles) {
   return rate.inverse();
 }
 
-ChannelFactor::ChannelFactor(const Problem& problem, const Ping& ping, int channel, const Loss& loss, const Unknowns& known)
-    : NoiseModelFactor(robustNoise(loss, problem.scale(channel) * std::sqrt(ping.reading.variance(channel))), keysOf(problem.prior)),
+ChannelFactor::ChannelFactor(const Problem& problem, const Ping& ping, int channel, const Loss& loss,
+                             const Unknowns& known)
+    : NoiseModelFactor(robustNoise(loss, problem.scale(channel) * std::sqrt(ping.reading.variance(channel))),
+                       keysOf(problem.prior)),
       model_(problem.model),
       ping_(ping),
       channel_(channel),
       known_(known) {}
 
-gtsam::Vector ChannelFactor::unwhitenedError(const gtsam::Values& values, boost::optional<std::vector<gtsam::Matrix>&> H) const {
+gtsam::Vector ChannelFactor::unwhitenedError(const gtsam::Values& values,
+                                             boost::optional<std::vector<gtsam::Matrix>&> H) const {
   const Unknowns x = unknownsFrom(values, known_);
   if (H) {
     Matrix<1, kUnknowns> row = model_.jacobian(x, ping_).row(channel_);
@@ -73,7 +76,8 @@ gtsam::Vector ChannelFactor::unwhitenedError(const gtsam::Values& values, boost:
     const Vector<3> p = transponderInArray(x, ping_);
     const Vector<3> gradient = -mountingRotation(x.head<3>()).transpose() * row.segment<3>(kLeverX).transpose();
     row.head<3>() = gradient.cross(p).transpose();
-    for (std::size_t i = 0; i < keys().size(); ++i) (*H)[i] = row.segment(firstUnknown(keys()[i]), countUnknowns(keys()[i]));
+    for (std::size_t i = 0; i < keys().size(); ++i)
+      (*H)[i] = row.segment(firstUnknown(keys()[i]), countUnknowns(keys()[i]));
   }
   return gtsam::Vector1(model_.difference(model_.predict(x, ping_), ping_.reading.value)(channel_));
 }
@@ -85,7 +89,8 @@ gtsam::SharedNoiseModel priorNoise(const Prior& prior, gtsam::Key key) {
   return gtsam::noiseModel::Diagonal::Sigmas(sigmas);
 }
 
-MountingPriorFactor::MountingPriorFactor(const Prior& prior) : NoiseModelFactor1(priorNoise(prior, kMountingKey), kMountingKey), mean_(prior.mean.head<3>()) {}
+MountingPriorFactor::MountingPriorFactor(const Prior& prior)
+    : NoiseModelFactor1(priorNoise(prior, kMountingKey), kMountingKey), mean_(prior.mean.head<3>()) {}
 
 gtsam::Vector MountingPriorFactor::evaluateError(const gtsam::Rot3& rotation, boost::optional<gtsam::Matrix&> H) const {
   const Vector<3> angles = mountingAngles(rotation);

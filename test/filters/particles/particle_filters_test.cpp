@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Particle filters against the Kalman filter, on the textbook's problems, and with numbers that are none. Bands are over fixed seeds.
+// Particle filters against the Kalman filter, on the textbook's problems, and with numbers that are none. Bands are
+// over fixed seeds.
 #include <limits>
 
 #include "sas_motion/filters/kalman_filter.hpp"
@@ -56,8 +57,8 @@ struct Walk {
   Vector<1> read(const Vector<2>& x) const { return H * x; }
 };
 
-/// The mean over seeds of the squared distance of a filter's mean from the Kalman filter's, in the latter's covariance, after 30 readings; and
-/// of the ratio of their variances of the position.
+/// The mean over seeds of the squared distance of a filter's mean from the Kalman filter's, in the latter's covariance,
+/// after 30 readings; and of the ratio of their variances of the position.
 struct Distance {
   double mean_square = 0, variance_ratio = 0;
 };
@@ -76,7 +77,9 @@ Distance distanceFromTheKalmanFilter(const Make& make, int seeds) {
       truth = walk.move(truth) + walk.Q_root * testing::randomMatrix<2>(random);
       const Vector<1> z = walk.read(truth) + Vector<1>(0.5 * random.gaussian());
       exact = predictGaussian<2>(exact, {walk.F * exact.mean, walk.F, walk.Q_root * walk.Q_root.transpose()});
-      exact = KalmanFilter<2>().update(exact, LinearMeasurement<2, 1>{Vector<1>(z - walk.H * exact.mean), walk.H, walk.R}).belief;
+      exact = KalmanFilter<2>()
+                  .update(exact, LinearMeasurement<2, 1>{Vector<1>(z - walk.H * exact.mean), walk.H, walk.R})
+                  .belief;
       filter.predict([&](const Vector<2>& x) { return walk.move(x); }, walk.Q_root);
       const auto update = filter.update(
           z, [&](const Vector<2>& x) { return walk.read(x); }, walk.R);
@@ -93,7 +96,8 @@ Distance distanceFromTheKalmanFilter(const Make& make, int seeds) {
 TEST(ParticleFilters, AgreeWithTheKalmanFilterOnALinearModelWithinWhatTheyDraw) {
   const int particles = 1000;
   const auto expectNear = [&](const char* name, const Distance& distance, double draws) {
-    std::cout << name << ": squared distance " << distance.mean_square << " of its variance, variance ratio " << distance.variance_ratio << "\n";
+    std::cout << name << ": squared distance " << distance.mean_square << " of its variance, variance ratio "
+              << distance.variance_ratio << "\n";
     EXPECT_LT(distance.mean_square, draws / particles) << name;
     EXPECT_NEAR(distance.variance_ratio, 1, 0.03) << name;
   };
@@ -103,12 +107,15 @@ TEST(ParticleFilters, AgreeWithTheKalmanFilterOnALinearModelWithinWhatTheyDraw) 
   expectNear("ss_srupf", distanceFromTheKalmanFilter(mixture, 20), 2);
   const auto unscented = [&](std::uint64_t seed) { return upf<2>(options(particles, seed)); };
   expectNear("upf", distanceFromTheKalmanFilter(unscented, 10), 2);
-  const auto optimal = [&](std::uint64_t seed) { return ssSrupf<2>(options(particles, seed), Weighting::OptimalProposal); };
+  const auto optimal = [&](std::uint64_t seed) {
+    return ssSrupf<2>(options(particles, seed), Weighting::OptimalProposal);
+  };
   expectNear("ss_srupf, optimal proposal", distanceFromTheKalmanFilter(optimal, 20), 8);
 }
 
 TEST(ParticleFilters, ScatteredParticlesHaveTheNoiseBesideWhatTheyHad) {
-  const Matrix<2> noise_root = (Matrix<2>() << 0.5, 0, 2, 1).finished(), sum = Matrix<2>::Identity() + noise_root * noise_root.transpose();
+  const Matrix<2> noise_root = (Matrix<2>() << 0.5, 0, 2, 1).finished(),
+                  sum = Matrix<2>::Identity() + noise_root * noise_root.transpose();
   const auto covarianceOf = [&](auto filter) -> Matrix<2> {
     EXPECT_TRUE(filter.start({}));
     filter.scatter(noise_root);
@@ -117,12 +124,14 @@ TEST(ParticleFilters, ScatteredParticlesHaveTheNoiseBesideWhatTheyHad) {
   EXPECT_LT(testing::relativeDifference(covarianceOf(ParticleFilter<2>(options(20000))), sum), 0.05);
   EXPECT_LT(testing::relativeDifference(covarianceOf(upf<2>(options(20000))), sum), 0.05);
   EXPECT_LT(testing::relativeDifference(covarianceOf(ssSrupf<2>(options(20000))), sum), 0.05);
-  EXPECT_LT(testing::relativeDifference(covarianceOf(upf<2>(options(1))), sum), 1e-12) << "one particle is widened instead";
+  EXPECT_LT(testing::relativeDifference(covarianceOf(upf<2>(options(1))), sum), 1e-12)
+      << "one particle is widened instead";
   EXPECT_LT(testing::relativeDifference(covarianceOf(ssSrupf<2>(options(1))), sum), 1e-12);
 }
 
 TEST(ParticleFilters, ScatteredPointsCountTheirNoiseOnce) {
-  // GIVEN points scattered as wide as a whole prediction would draw them, WHEN z is read, THEN the answer is the Kalman filter's of the same noise
+  // GIVEN points scattered as wide as a whole prediction would draw them, WHEN z is read, THEN the answer is the Kalman
+  // filter's of the same noise
   const Walk walk;
   const Matrix<2> wide = (Matrix<2>() << 1.5, 0, 0, 0.5).finished();
   auto filter = ssSrupf<2>(options(20000), Weighting::OptimalProposal);
@@ -132,7 +141,9 @@ TEST(ParticleFilters, ScatteredPointsCountTheirNoiseOnce) {
   Gaussian<2> exact{Vector<2>::Zero(), Matrix<2>::Identity() + wide * wide.transpose()};
   exact = predictGaussian<2>(exact, {walk.F * exact.mean, walk.F, walk.Q_root * walk.Q_root.transpose()});
   const Vector<1> z(1.5);
-  exact = KalmanFilter<2>().update(exact, LinearMeasurement<2, 1>{Vector<1>(z - walk.H * exact.mean), walk.H, walk.R}).belief;
+  exact = KalmanFilter<2>()
+              .update(exact, LinearMeasurement<2, 1>{Vector<1>(z - walk.H * exact.mean), walk.H, walk.R})
+              .belief;
   filter.update(
       z, [&](const Vector<2>& x) { return walk.read(x); }, walk.R);
   EXPECT_LT((filter.belief().mean - exact.mean).norm(), 0.05);
@@ -205,7 +216,8 @@ TEST(ParticleFilters, ACopyGoesOnAsItsOriginalAndApartFromIt) {
   EXPECT_EQ(copy.mean(), copy.belief().mean);
 }
 
-/// x' = x / 2 + 25 x / (1 + x^2) + 8 cos(1.2 k) + w, z = x^2 / 20 + v, of variances 10 and 1: two answers to most readings. [Gordon1993, 4.1]
+/// x' = x / 2 + 25 x / (1 + x^2) + 8 cos(1.2 k) + w, z = x^2 / 20 + v, of variances 10 and 1: two answers to most
+/// readings. [Gordon1993, 4.1]
 template <class Make>
 double growthError(const Make& make, int seeds) {
   double square = 0;
@@ -216,11 +228,14 @@ double growthError(const Make& make, int seeds) {
     filter.start({Vector<1>::Zero(), Matrix<1>(2)});
     double x = std::sqrt(2.0) * random.gaussian();
     for (int k = 1; k <= kSteps; ++k) {
-      const auto f = [&](const Vector<1>& y) { return Vector<1>(y(0) / 2 + 25 * y(0) / (1 + y(0) * y(0)) + 8 * std::cos(1.2 * k)); };
+      const auto f = [&](const Vector<1>& y) {
+        return Vector<1>(y(0) / 2 + 25 * y(0) / (1 + y(0) * y(0)) + 8 * std::cos(1.2 * k));
+      };
       x = f(Vector<1>(x))(0) + std::sqrt(10.0) * random.gaussian();
       filter.predict(f, Matrix<1>(std::sqrt(10.0)));
       filter.update(
-          Vector<1>(x * x / 20 + random.gaussian()), [](const Vector<1>& y) { return Vector<1>(y(0) * y(0) / 20); }, Matrix<1>(1));
+          Vector<1>(x * x / 20 + random.gaussian()), [](const Vector<1>& y) { return Vector<1>(y(0) * y(0) / 20); },
+          Matrix<1>(1));
       square += std::pow(filter.belief().mean(0) - x, 2) / (kSteps * seeds);
     }
   }
@@ -230,15 +245,18 @@ double growthError(const Make& make, int seeds) {
 TEST(ParticleFilters, FollowTheUnivariateGrowthModelWhereOneGaussianDoesNot) {
   const double pf = growthError([](std::uint64_t seed) { return ParticleFilter<1>(options(500, seed)); }, 40);
   const double many = growthError([](std::uint64_t seed) { return ParticleFilter<1>(options(5000, seed)); }, 40);
-  const double proposal = growthError([](std::uint64_t seed) { return upf<1>(options(500, seed), Weighting::OptimalProposal); }, 40);
+  const double proposal =
+      growthError([](std::uint64_t seed) { return upf<1>(options(500, seed), Weighting::OptimalProposal); }, 40);
   const double alone = growthError([](std::uint64_t) { return upf<1>(options(1)); }, 40);
-  std::cout << "growth model, RMSE: pf " << pf << ", of 5000 " << many << ", upf " << proposal << ", ukf " << alone << "\n";
+  std::cout << "growth model, RMSE: pf " << pf << ", of 5000 " << many << ", upf " << proposal << ", ukf " << alone
+            << "\n";
   EXPECT_LT(pf, 1.05 * many) << "500 are enough [Gordon1993]";
   EXPECT_LT(proposal, 1.15 * many);
   EXPECT_GT(alone, 1.7 * many);
 }
 
-/// A vessel that is heard, its bearing read from a listener that zigzags: position and velocity of the vessel. [Gordon1993, 4.2]
+/// A vessel that is heard, its bearing read from a listener that zigzags: position and velocity of the vessel.
+/// [Gordon1993, 4.2]
 template <class Filter>
 double bearingsError(Filter filter, std::uint64_t seed) {
   constexpr double kSigma = 0.01;
@@ -255,7 +273,8 @@ double bearingsError(Filter filter, std::uint64_t seed) {
     const auto h = [&](const Vector<4>& x) { return Vector<1>(std::atan2(x(1) - listener(1), x(0) - listener(0))); };
     truth = f(truth) + Q_root * testing::randomMatrix<4>(random);
     filter.predict(f, Q_root);
-    filter.update(Vector<1>(wrapAngle(h(truth)(0) + kSigma * random.gaussian())), h, Matrix<1>(kSigma * kSigma), wrapped);
+    filter.update(Vector<1>(wrapAngle(h(truth)(0) + kSigma * random.gaussian())), h, Matrix<1>(kSigma * kSigma),
+                  wrapped);
     if (k > 30) square += (filter.belief().mean - truth).template head<2>().squaredNorm() / 10;
   }
   return std::sqrt(square);
@@ -267,7 +286,8 @@ TEST(ParticleFilters, TrackByBearingsAlone) {
     pf.push_back(bearingsError(ParticleFilter<4>(options(3000, seed)), seed));
     mixture.push_back(bearingsError(ssSrupf<4>(options(100, seed)), seed));
   }
-  std::cout << "bearings only, median error: pf " << quantile(pf, 0.5) << " m, ss_srupf " << quantile(mixture, 0.5) << " m of 2.8 at the start\n";
+  std::cout << "bearings only, median error: pf " << quantile(pf, 0.5) << " m, ss_srupf " << quantile(mixture, 0.5)
+            << " m of 2.8 at the start\n";
   EXPECT_LT(quantile(pf, 0.5), 0.7);
   EXPECT_LT(quantile(mixture, 0.5), 0.7);
   EXPECT_LT(rootMeanSquare(mixture), rootMeanSquare(pf)) << "with a thirtieth of the particles";
@@ -283,10 +303,11 @@ TEST(ParticleFilters, TheLiteralWeightsCollapseWhereTheMixturesDoNot) {
     for (int k = 0; k < 20; ++k) {
       filter.predict([](const Vector<6>& x) { return x; }, Matrix<6>(1e-3 * Matrix<6>::Identity()));
       const Vector<2> z = testing::randomMatrix<2>(random);
-      sizes.push_back(filter
-                          .update(
-                              z, [](const Vector<6>& x) -> Vector<2> { return x.head<2>(); }, Matrix<2>(Matrix<2>::Identity()))
-                          .effective_size);
+      sizes.push_back(
+          filter
+              .update(
+                  z, [](const Vector<6>& x) -> Vector<2> { return x.head<2>(); }, Matrix<2>(Matrix<2>::Identity()))
+              .effective_size);
     }
     return quantile(sizes, 0.5);
   };
@@ -328,7 +349,9 @@ void expectItRecovers(Filter filter, const Start& start) {
 
 TEST(ParticleFilters, RecoverFromNumbersThatAreNone) {
   const auto whole = [](auto& filter) { return filter.start({}); };
-  const auto narrow = [](auto& filter) { return filter.start({}, 0.1 * Matrix<2>::Identity()); };  // Gaussians that do not all reach where numbers end
+  const auto narrow = [](auto& filter) {
+    return filter.start({}, 0.1 * Matrix<2>::Identity());
+  };  // Gaussians that do not all reach where numbers end
   expectItRecovers(ParticleFilter<2>(options(400)), whole);
   expectItRecovers(upf<2>(options(100)), narrow);
   for (const auto weighting : {Weighting::Mixture, Weighting::OptimalProposal, Weighting::Literal})
@@ -358,7 +381,8 @@ TEST(ParticleFilters, RedescendingLossStandsOutliers) {
     return std::sqrt(square);
   };
   const double clean = error(std::nullopt, 0), robust = error(Loss(LossKind::Tukey), 0.1);
-  std::cout << "clean " << clean << ", 10 % of 50 sigma: " << robust << " robust, " << error(std::nullopt, 0.1) << " not\n";
+  std::cout << "clean " << clean << ", 10 % of 50 sigma: " << robust << " robust, " << error(std::nullopt, 0.1)
+            << " not\n";
   EXPECT_LT(error(Loss(LossKind::Tukey), 0), 1.05 * clean);
   EXPECT_LT(robust, 1.2 * clean);
   EXPECT_GT(error(std::nullopt, 0.1), 3 * clean);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A block of square-root filters by vector instructions gives the answers of each filter alone, with every set of instructions, and its lanes do not
-// touch each other.
+// A block of square-root filters by vector instructions gives the answers of each filter alone, with every set of
+// instructions, and its lanes do not touch each other.
 #include "sas_motion/filters/particles/simplex_blocks.hpp"
 
 #include <limits>
@@ -58,15 +58,19 @@ struct Step {
 };
 
 template <int N, int M, class Filter, class Difference = PlainDifference>
-Step<N> stepOf(const Filter& filter, const Beliefs<N>& beliefs, const Matrix<N>& Q_root, const Difference& difference = {}) {
+Step<N> stepOf(const Filter& filter, const Beliefs<N>& beliefs, const Matrix<N>& Q_root,
+               const Difference& difference = {}) {
   Step<N> step{beliefs, {}, std::vector<double>(beliefs.size()), {}};
   const int count = static_cast<int>(beliefs.size());
-  const auto of = [](Beliefs<N>& all) { return [&all](int k) -> RootGaussian<N>& { return all[static_cast<std::size_t>(k)]; }; };
+  const auto of = [](Beliefs<N>& all) {
+    return [&all](int k) -> RootGaussian<N>& { return all[static_cast<std::size_t>(k)]; };
+  };
   filter.predict(count, of(step.predicted), bend<N>, Q_root, [&](int k) { step.lost.push_back(k); });
   step.updated = step.predicted;
   const Matrix<M> R_root = Vector<M>::LinSpaced(0.3, 0.4).asDiagonal();
-  filter.template update<M>(count, of(step.updated), Vector<M>(Vector<M>::LinSpaced(2.5, 3.5)), look<N, M>, R_root, difference,
-                            [&](int k, double log_likelihood) { step.likelihoods[static_cast<std::size_t>(k)] = log_likelihood; });
+  filter.template update<M>(
+      count, of(step.updated), Vector<M>(Vector<M>::LinSpaced(2.5, 3.5)), look<N, M>, R_root, difference,
+      [&](int k, double log_likelihood) { step.likelihoods[static_cast<std::size_t>(k)] = log_likelihood; });
   return step;
 }
 
@@ -113,7 +117,9 @@ TEST(SimplexBlocks, EqualEachFilterAloneOnEveryTarget) {
 }
 
 TEST(SimplexBlocks, CompareAnglesAsTheyAreTold) {
-  const auto wrapped = [](const Vector<3>& a, const Vector<3>& b) { return Vector<3>(wrapAngle(a(0) - b(0)), a(1) - b(1), a(2) - b(2)); };
+  const auto wrapped = [](const Vector<3>& a, const Vector<3>& b) {
+    return Vector<3>(wrapAngle(a(0) - b(0)), a(1) - b(1), a(2) - b(2));
+  };
   expectEachAlone<2, 3>(5, Matrix<2>(0.1 * Matrix<2>::Identity()), wrapped);
 }
 

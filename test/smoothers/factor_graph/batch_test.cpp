@@ -19,7 +19,8 @@ SmoothingProblem contaminatedProblem(double duration, std::uint64_t seed) {
 
 class BatchAndRts : public ::testing::TestWithParam<LossKind> {};
 std::string nameOf(const ::testing::TestParamInfo<LossKind>& info) { return lossName(info.param); }
-INSTANTIATE_TEST_SUITE_P(Smoothers, BatchAndRts, ::testing::Values(LossKind::L2, LossKind::Huber, LossKind::Cauchy), nameOf);
+INSTANTIATE_TEST_SUITE_P(Smoothers, BatchAndRts, ::testing::Values(LossKind::L2, LossKind::Huber, LossKind::Cauchy),
+                         nameOf);
 
 TEST_P(BatchAndRts, ReachTheSameOptimumAndTheSameCovariances) {
   const auto problem = contaminatedProblem(60, 1);
@@ -35,12 +36,14 @@ TEST_P(BatchAndRts, ReachTheSameOptimumAndTheSameCovariances) {
     const StateVector sigma = P.diagonal().cwiseSqrt();
     const StateVector off = Model::difference(rts.states[k].mean, batch.states[k].mean).cwiseQuotient(sigma);
     worst = std::max(worst, off.cwiseAbs().maxCoeff());
-    const StateMatrix scaled = sigma.cwiseInverse().asDiagonal() * (rts.states[k].covariance - P) * sigma.cwiseInverse().asDiagonal();
+    const StateMatrix scaled =
+        sigma.cwiseInverse().asDiagonal() * (rts.states[k].covariance - P) * sigma.cwiseInverse().asDiagonal();
     worst_covariance = std::max(worst_covariance, scaled.cwiseAbs().maxCoeff());
   }
   EXPECT_LT(worst, 1e-4) << "standard deviations";
   EXPECT_LT(worst_covariance, 1e-6);
-  for (std::size_t j = 0; j < problem.measurements.size(); ++j) ASSERT_LT((batch.weights[j] - rts.weights[j]).norm(), 1e-3) << j;
+  for (std::size_t j = 0; j < problem.measurements.size(); ++j)
+    ASSERT_LT((batch.weights[j] - rts.weights[j]).norm(), 1e-3) << j;
 }
 
 TEST(Gnc, TakesTheOutliersOutAndKeepsTheRest) {
@@ -58,7 +61,8 @@ TEST(Gnc, TakesTheOutliersOutAndKeepsTheRest) {
       const bool outlier = run.labelled[j].outlier[static_cast<std::size_t>(row)];
       const bool out = result.weights[j](row) < 0.5;
       const double off =
-          std::abs(Model::difference(StateVector::Constant((z.value - Model::expected(z, run.truthAt(z.stamp)))(row)), StateVector::Zero())(kHeading));
+          std::abs(Model::difference(StateVector::Constant((z.value - Model::expected(z, run.truthAt(z.stamp)))(row)),
+                                     StateVector::Zero())(kHeading));
       if (outlier && (z.sensor != Sensor::Heading || off < kPi) && off > 6 * std::sqrt(z.variance(row))) {
         ++large;
         caught += out;
@@ -80,7 +84,8 @@ TEST(Batch, WhatCannotBeSolvedIsReportedAndNotThrown) {
   problem = contaminatedProblem(6, 3);
   problem.measurements[7].value(0) = std::nan("");
   const auto result = smoothBatch(problem, {});
-  EXPECT_TRUE(!result.failure.empty() || std::isfinite(result.cost)) << "a cost of " << result.cost << " passes for an answer";
+  EXPECT_TRUE(!result.failure.empty() || std::isfinite(result.cost))
+      << "a cost of " << result.cost << " passes for an answer";
 }
 
 TEST(Estimators, EveryNameMakesOne) {

@@ -14,7 +14,8 @@ using testing::announced;
 
 StateVector randomState(Random& random, bool south) {
   StateVector x;
-  x << 100 * random.gaussian(), 100 * random.gaussian(), 0.3 * random.gaussian(), 0.3 * random.gaussian(), 0, 2 + random.gaussian();
+  x << 100 * random.gaussian(), 100 * random.gaussian(), 0.3 * random.gaussian(), 0.3 * random.gaussian(), 0,
+      2 + random.gaussian();
   x(kHeading) = south ? wrapAngle(kPi + 1e-4 * random.gaussian()) : kPi * (2 * random.uniform() - 1);
   return x;
 }
@@ -28,12 +29,18 @@ TEST(Factors, MotionJacobiansMatchGtsamsNumericalOnes) {
     const double dt = 0.01 + random.uniform();
     StateVector to = model.predict(from, input, dt) + 0.1 * testing::randomMatrix<6>(random);
     const MotionFactor factor(0, 1, model, input, dt, model.transition(from, input, dt).Q);
-    const auto error = [&](const StateVector& a, const StateVector& b) -> gtsam::Vector { return factor.evaluateError(a, b, boost::none, boost::none); };
+    const auto error = [&](const StateVector& a, const StateVector& b) -> gtsam::Vector {
+      return factor.evaluateError(a, b, boost::none, boost::none);
+    };
     gtsam::Matrix H_from, H_to;
     const gtsam::Vector value = factor.evaluateError(from, to, H_from, H_to);
     EXPECT_LT((value - error(from, to)).norm(), 1e-12);
-    EXPECT_LT((H_from - gtsam::numericalDerivative21<gtsam::Vector, StateVector, StateVector>(error, from, to)).norm(), 1e-6) << i;
-    EXPECT_LT((H_to - gtsam::numericalDerivative22<gtsam::Vector, StateVector, StateVector>(error, from, to)).norm(), 1e-6) << i;
+    EXPECT_LT((H_from - gtsam::numericalDerivative21<gtsam::Vector, StateVector, StateVector>(error, from, to)).norm(),
+              1e-6)
+        << i;
+    EXPECT_LT((H_to - gtsam::numericalDerivative22<gtsam::Vector, StateVector, StateVector>(error, from, to)).norm(),
+              1e-6)
+        << i;
     EXPECT_LT(std::abs(value(kHeading)), 1);  // wrapped
   }
 }
@@ -50,10 +57,14 @@ TEST(Factors, RowAndPriorJacobiansMatchGtsamsNumericalOnes) {
         z.lever_arm_body << 3, -1;
         z.value = Model::expected(z, x) + 0.1 * testing::randomMatrix<2>(random);
         const RowFactor factor(0, model, z, row, Loss(LossKind::Huber));
-        const auto error = [&](const StateVector& at) -> gtsam::Vector { return factor.evaluateError(at, boost::none); };
+        const auto error = [&](const StateVector& at) -> gtsam::Vector {
+          return factor.evaluateError(at, boost::none);
+        };
         gtsam::Matrix H;
-        EXPECT_NEAR(factor.evaluateError(x, H)(0), Model::expected(z, x)(row) - z.value(row), sensor == Sensor::Heading ? 7 : 1e-9);
-        EXPECT_LT((H - gtsam::numericalDerivative11<gtsam::Vector, StateVector>(error, x)).norm(), 1e-6) << sensorName(sensor) << row;
+        EXPECT_NEAR(factor.evaluateError(x, H)(0), Model::expected(z, x)(row) - z.value(row),
+                    sensor == Sensor::Heading ? 7 : 1e-9);
+        EXPECT_LT((H - gtsam::numericalDerivative11<gtsam::Vector, StateVector>(error, x)).norm(), 1e-6)
+            << sensorName(sensor) << row;
         EXPECT_LT(error(x).norm(), 1) << sensorName(sensor);  // wrapped
       }
     const PriorStateFactor prior(0, {randomState(random, i % 2 == 0), testing::randomCovariance<6>(random)});

@@ -17,7 +17,8 @@ Config configWithLag(const Scenario& scenario, double lag) {
 }
 
 /// RMS over time of each state's distance from the batch answer, in the batch's standard deviations.
-StateVector distanceFromBatch(const Output& output, const Config& config, const std::vector<Measurement>& measurements) {
+StateVector distanceFromBatch(const Output& output, const Config& config,
+                              const std::vector<Measurement>& measurements) {
   const auto problem = *buildProblem(measurements, config);
   const auto batch = smoothRts(problem, {config.fixed_lag.loss, 500, 1e-12});
   StateVector squares = StateVector::Zero();
@@ -25,7 +26,8 @@ StateVector distanceFromBatch(const Output& output, const Config& config, const 
   for (std::size_t k = 0; k < std::min(problem.nodes(), output.estimates.size()); ++k) {
     EXPECT_EQ(output.estimates[k].stamp, problem.stamps[k]);
     const StateVector sigma = batch.states[k].covariance.diagonal().cwiseSqrt();
-    squares += Model::difference(output.estimates[k].belief.mean, batch.states[k].mean).cwiseQuotient(sigma).cwiseAbs2();
+    squares +=
+        Model::difference(output.estimates[k].belief.mean, batch.states[k].mean).cwiseQuotient(sigma).cwiseAbs2();
   }
   return (squares / static_cast<double>(problem.nodes())).cwiseSqrt();
 }
@@ -52,7 +54,8 @@ TEST(FixedLag, TenSecondsOfLagAreNearlyTheBatchSmoother) {
   const StateVector distance = distanceFromBatch(output, config, measurements);
   EXPECT_LT(distance(kHeading), 0.1) << distance.transpose();
   EXPECT_LT(distance(kSpeed), 0.1) << distance.transpose();
-  EXPECT_LT(distance.head<2>().maxCoeff(), 0.5) << distance.transpose();  // the current is learned over more than ten seconds
+  EXPECT_LT(distance.head<2>().maxCoeff(), 0.5)
+      << distance.transpose();  // the current is learned over more than ten seconds
 }
 
 TEST(FixedLag, ArrivalOrderWithinTheReorderTimeDoesNotMatter) {
@@ -93,8 +96,10 @@ TEST(FixedLag, SurvivesWhatItsSolverCannotSolve) {
   const auto scenario = testing::survey(25);
   auto run = testing::simulate(scenario, 5);
   auto measurements = run.measurements;
-  for (std::size_t i = 300; i < 340; ++i) measurements[i].variance.setConstant(1e-24);  // more than its Cholesky can hold
-  for (std::size_t i = measurements.size() - 5; i < measurements.size(); ++i) measurements[i].variance.setConstant(1e-24);
+  for (std::size_t i = 300; i < 340; ++i)
+    measurements[i].variance.setConstant(1e-24);  // more than its Cholesky can hold
+  for (std::size_t i = measurements.size() - 5; i < measurements.size(); ++i)
+    measurements[i].variance.setConstant(1e-24);
   FixedLagSmoother smoother(configWithLag(scenario, 5));
   Output output;
   EXPECT_NO_THROW(output = testing::feed(smoother, measurements));

@@ -38,7 +38,9 @@ IntervalPtr intervalOf(double begin, double end) {
   return std::make_shared<const InertialInterval>(interval);
 }
 
-ModelPtr modelOf(const Parameters& parameters) { return std::make_shared<const ErrorModel>(parameters, nodeAt(0).state); }
+ModelPtr modelOf(const Parameters& parameters) {
+  return std::make_shared<const ErrorModel>(parameters, nodeAt(0).state);
+}
 
 Parameters parametersOf(bool distorted) {
   Parameters p = testing::surveyOf(100).parameters;
@@ -61,7 +63,8 @@ gtsam::Values valuesNear(Random& random) {
 }
 
 /// Central differences by each variable of a factor, against its Jacobians; `slack` is absolute.
-void expectJacobians(const gtsam::NoiseModelFactor& factor, const gtsam::Values& values, double relative, double slack) {
+void expectJacobians(const gtsam::NoiseModelFactor& factor, const gtsam::Values& values, double relative,
+                     double slack) {
   constexpr double kStep = 1e-2;  // in units of the states
   std::vector<gtsam::Matrix> H(factor.keys().size());
   factor.unwhitenedError(values, H);
@@ -75,7 +78,8 @@ void expectJacobians(const gtsam::NoiseModelFactor& factor, const gtsam::Values&
       };
       const gtsam::Vector found = (at(kStep) - at(-kStep)) / (2 * kStep);
       for (Eigen::Index row = 0; row < found.size(); ++row)
-        EXPECT_NEAR(H[i](row, column), found(row), relative * std::abs(found(row)) + slack) << "variable " << i << ", row " << row << ", column " << column;
+        EXPECT_NEAR(H[i](row, column), found(row), relative * std::abs(found(row)) + slack)
+            << "variable " << i << ", row " << row << ", column " << column;
     }
   }
 }
@@ -90,7 +94,10 @@ TEST(InsNode, StepsAreTheErrorsOfTheModel) {
     const ErrorModel model({}, truth.state);
     Errors errors = Errors::Zero();
     errors.head<9>() = e.head<9>();
-    EXPECT_LT(truth.localCoordinates(nodeOf(corrected(computed.state, errors, model.unit()), Errors::Zero())).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT(truth.localCoordinates(nodeOf(corrected(computed.state, errors, model.unit()), Errors::Zero()))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-8);
   }
 }
 
@@ -103,7 +110,8 @@ TEST(InertialFactor, IsSmallOnTheTrueWayAndSeesWhatLeavesIt) {
   EXPECT_LT(error.segment<3>(kPosition).norm(), 1e-6) << "a third of the least noise of an interval";
   EXPECT_LT(error.segment<3>(kAttitude).norm() * kMilliradian, 1e-10);
   // GIVEN a bias of 1 mm/s^2 that the node does not know of, THEN it misses by that times the time
-  const gtsam::Vector biased = factor.evaluateError(from, to, -Constants::Unit(4), boost::none, boost::none, boost::none);
+  const gtsam::Vector biased =
+      factor.evaluateError(from, to, -Constants::Unit(4), boost::none, boost::none, boost::none);
   EXPECT_NEAR(biased.segment<3>(kVelocity).norm(), kBias * kLength, 1e-6);
 }
 
@@ -114,7 +122,8 @@ TEST(InertialFactor, JacobiansAreThoseOfDifferences) {
     for (int i = 0; i < 5; ++i) {
       gtsam::Values values = valuesNear(random);
       // The Jacobian is for an end that is near the node.
-      values.update(1, Node{integrate(*interval, values.at<Node>(0), values.at<Constants>(kConstantsKey)).end, values.at<Node>(1).wandering});
+      values.update(1, Node{integrate(*interval, values.at<Node>(0), values.at<Constants>(kConstantsKey)).end,
+                            values.at<Node>(1).wandering});
       const InertialFactor factor(0, 1, modelOf({}), interval, values.at<Node>(0), Constants::Zero());
       expectJacobians(factor, values, 0.01, 2e-6);
     }
@@ -154,7 +163,8 @@ TEST(AidingFactor, JacobiansOfADvlThatDriftsAreThoseOfDifferences) {
   Aiding reading;
   reading.sensor = Sensor::Dvl;
   reading.velocity_body = node.state.q_nav_body.conjugate() * node.state.velocity_nav;
-  for (int row = 0; row < 3; ++row) expectJacobians(AidingFactor(0, model, reading, {0.02, -0.01, 0.03}, row, Loss(LossKind::L2)), values, 1e-3, 2e-5);
+  for (int row = 0; row < 3; ++row)
+    expectJacobians(AidingFactor(0, model, reading, {0.02, -0.01, 0.03}, row, Loss(LossKind::L2)), values, 1e-3, 2e-5);
 }
 
 TEST(AidingFactor, TakesScaleMisalignmentAndLeverArmOutOfADvl) {
@@ -165,7 +175,8 @@ TEST(AidingFactor, TakesScaleMisalignmentAndLeverArmOutOfADvl) {
   const ErrorModel plain({}, node.state);
   Aiding reading;
   reading.sensor = Sensor::Dvl;
-  reading.velocity_body = -model->velocityOfIns(node.state, rate, -(node.state.q_nav_body.conjugate() * node.state.velocity_nav));
+  reading.velocity_body =
+      -model->velocityOfIns(node.state, rate, -(node.state.q_nav_body.conjugate() * node.state.velocity_nav));
   reading.velocity_body += rateOverGround(node.state, rate).cross(lever);
   reading.velocity_body = dvlDistortion(0.02, misalignment) * reading.velocity_body;
   gtsam::Values values;

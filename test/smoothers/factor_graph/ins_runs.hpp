@@ -14,7 +14,9 @@ inline Scenario surveyOf(double duration) {
   return scenario;
 }
 
-inline Recording recordingOf(const Scenario& scenario, std::uint64_t seed) { return simulate(scenario, Trajectory(scenario.track, scenario.duration), seed); }
+inline Recording recordingOf(const Scenario& scenario, std::uint64_t seed) {
+  return simulate(scenario, Trajectory(scenario.track, scenario.duration), seed);
+}
 
 inline Config configOf(const Scenario& scenario) {
   Config config;
@@ -27,7 +29,8 @@ inline Config configOf(const Scenario& scenario) {
 inline void feed(Estimator& estimator, const Recording& recording, Output& output) {
   auto next = recording.aiding.begin();
   for (const auto& reading : recording.imu) {
-    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator.process(next->reading, output);
+    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next)
+      estimator.process(next->reading, output);
     estimator.process(reading, output);
   }
 }
@@ -61,8 +64,9 @@ double rmsError(const Output& output, const Scenario& scenario, double skip, con
 
 /// Of the horizontal position [m].
 inline double positionError(const Output& output, const Scenario& scenario, double skip) {
-  return rmsError(output, scenario, skip,
-                  [](const NavigationState& state, const NavigationState& truth) { return displacement(truth, state).head<2>().eval(); });
+  return rmsError(output, scenario, skip, [](const NavigationState& state, const NavigationState& truth) {
+    return displacement(truth, state).head<2>().eval();
+  });
 }
 
 /// Of the tilt, whose errors are short, so that a few runs have many of them [rad].

@@ -22,7 +22,8 @@ using testing::surveyOf;
 using testing::tiltError;
 
 void addOutliers(Scenario& scenario) {
-  scenario.sensor(Sensor::Gps).noise = scenario.sensor(Sensor::Dvl).noise = {{sas_motion::testing::contaminated(0.1, 10)}};
+  scenario.sensor(Sensor::Gps).noise =
+      scenario.sensor(Sensor::Dvl).noise = {{sas_motion::testing::contaminated(0.1, 10)}};
 }
 
 InsSmoother::Options linearLoss() {
@@ -32,7 +33,8 @@ InsSmoother::Options linearLoss() {
 }
 
 TEST(InsSmoother, NamesTheGraphsEstimatorsAndThoseOfTheCore) {
-  for (const char* name : {"batch", "fixed_lag", "ckf27", "smooth_robust_ckf27"}) EXPECT_TRUE(makeAnyEstimator(name, {})) << name;
+  for (const char* name : {"batch", "fixed_lag", "ckf27", "smooth_robust_ckf27"})
+    EXPECT_TRUE(makeAnyEstimator(name, {})) << name;
   EXPECT_FALSE(makeAnyEstimator("no_such_estimator", {}));
 }
 
@@ -46,8 +48,10 @@ TEST(InsSmoother, AtTheEndBatchIsTheKalmanFilter) {
   ASSERT_EQ(a.stamp, b.stamp);
   const Vector<9> sigma = b.covariance->diagonal().cwiseSqrt();
   Vector<9> difference;
-  difference << a.state.velocity_nav - b.state.velocity_nav, displacement(b.state, a.state), attitudeError(a.state.q_nav_body, b.state.q_nav_body);
-  EXPECT_LT(difference.cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 0.05) << difference.transpose() << " of " << sigma.transpose();
+  difference << a.state.velocity_nav - b.state.velocity_nav, displacement(b.state, a.state),
+      attitudeError(a.state.q_nav_body, b.state.q_nav_body);
+  EXPECT_LT(difference.cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 0.05)
+      << difference.transpose() << " of " << sigma.transpose();
   EXPECT_LT(((*a.covariance).diagonal().cwiseSqrt().cwiseQuotient(sigma).array() - 1).abs().maxCoeff(), 0.02);
 }
 
@@ -82,7 +86,8 @@ TEST(InsSmoother, FixedLagLiesBetweenFilterAndBatchAndPutsOutAsItGoes) {
     smoother.start(recording.start, 0);
     testing::feed(smoother, recording, live);
     ASSERT_FALSE(live.solutions.empty());
-    EXPECT_NEAR(secondsBetween(live.solutions.back().stamp, recording.imu.back().stamp), 22.5, 2.6) << "lag and half of what passes between two solutions";
+    EXPECT_NEAR(secondsBetween(live.solutions.back().stamp, recording.imu.back().stamp), 22.5, 2.6)
+        << "lag and half of what passes between two solutions";
     EXPECT_LE(smoother.window()->size(), 5 * 26U) << "what is settled is forgotten";
     smoother.finish(live);
     EXPECT_EQ(live.solutions.size() + 1, recording.imu.size());
@@ -107,7 +112,8 @@ TEST(InsSmoother, LearnsLeverArmsFromReadings) {
   const Output learned = outputOf("batch", untold, recording);
   // THEN they agree, height included
   ASSERT_EQ(told.solutions.size(), learned.solutions.size());
-  for (std::size_t k = 0; k < told.solutions.size(); k += 100) EXPECT_LT(displacement(told.solutions[k].state, learned.solutions[k].state).norm(), 1e-6) << k;
+  for (std::size_t k = 0; k < told.solutions.size(); k += 100)
+    EXPECT_LT(displacement(told.solutions[k].state, learned.solutions[k].state).norm(), 1e-6) << k;
 }
 
 TEST(InsSmoother, BatchBeatsTheFilterAlsoWithOutliers) {
@@ -135,10 +141,12 @@ TEST(InsSmoother, ErrorsAreAsLargeAsItsCovarianceSays) {
     const Solution& solution = output.solutions[3000];
     const NavigationState truth = trajectory.at(secondsBetween(0, solution.stamp)).state;
     Vector<9> error;
-    error << solution.state.velocity_nav - truth.velocity_nav, displacement(truth, solution.state), attitudeError(solution.state.q_nav_body, truth.q_nav_body);
+    error << solution.state.velocity_nav - truth.velocity_nav, displacement(truth, solution.state),
+        attitudeError(solution.state.q_nav_body, truth.q_nav_body);
     for (int group = 0; group < 3; ++group) {
       const Vector<3> e = error.segment<3>(3 * group);
-      nees(group) += e.dot(Matrix<3>(solution.covariance->block<3, 3>(3 * group, 3 * group)).llt().solve(e)) / (3 * kRuns);
+      nees(group) +=
+          e.dot(Matrix<3>(solution.covariance->block<3, 3>(3 * group, 3 * group)).llt().solve(e)) / (3 * kRuns);
     }
   }
   EXPECT_GT(nees.minCoeff(), 0.65) << nees.transpose() << ", 99.9 % of chi-square with 90 degrees of freedom";
@@ -152,10 +160,11 @@ TEST(InsSmoother, NowhereJumps) {
   for (std::size_t k = 1; k < output.solutions.size(); ++k) {
     const auto &a = output.solutions[k - 1], &b = output.solutions[k];
     const Vector<3> moved = displacement(a.state, b.state),
-                    meant = displacement(trajectory.at(secondsBetween(0, a.stamp)).state, trajectory.at(secondsBetween(0, b.stamp)).state);
+                    meant = displacement(trajectory.at(secondsBetween(0, a.stamp)).state,
+                                         trajectory.at(secondsBetween(0, b.stamp)).state);
     const Vector<3> drift = 0.01 * 0.5 *
-                            (a.state.velocity_nav - trajectory.at(secondsBetween(0, a.stamp)).state.velocity_nav + b.state.velocity_nav -
-                             trajectory.at(secondsBetween(0, b.stamp)).state.velocity_nav);
+                            (a.state.velocity_nav - trajectory.at(secondsBetween(0, a.stamp)).state.velocity_nav +
+                             b.state.velocity_nav - trajectory.at(secondsBetween(0, b.stamp)).state.velocity_nav);
     EXPECT_LT((moved - meant - drift).norm(), 1e-5) << "at " << secondsBetween(0, b.stamp) << " s";
   }
 }
@@ -197,7 +206,8 @@ TEST(InsSmoother, FindsADvlThatIsNotWhereItIsToldToBe) {
     const Vector<3> off = smoother.window()->dvlLever() - Vector<3>(0.5, -0.5, 0.3);
     const gtsam::Marginals marginals(smoother.window()->graph(), smoother.window()->values());
     const Matrix<3> P = marginals.marginalCovariance(kDvlLeverKey);
-    EXPECT_LT(off.dot(P.llt().solve(off)), 16.3) << "99.9 % of chi-square with 3 degrees of freedom, off by " << off.transpose();
+    EXPECT_LT(off.dot(P.llt().solve(off)), 16.3)
+        << "99.9 % of chi-square with 3 degrees of freedom, off by " << off.transpose();
     EXPECT_LT(P.diagonal().cwiseSqrt().maxCoeff(), 0.2) << "much less than what was believed";
     EXPECT_LT(off.norm(), 0.3);
   }
@@ -209,7 +219,8 @@ TEST(InsSmoother, StandsWhatSensorsReallySend) {
   // GIVEN a gap of the inertial unit, nonsense, readings that are late, and some between its stamps a microsecond apart
   recording.imu.erase(recording.imu.begin() + 2000, recording.imu.begin() + 2300);
   recording.imu[1000].force_body.x() = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t k = 0; k < recording.aiding.size(); ++k) recording.aiding[k].reading.stamp -= static_cast<Stamp>(1000 * (k % 3));
+  for (std::size_t k = 0; k < recording.aiding.size(); ++k)
+    recording.aiding[k].reading.stamp -= static_cast<Stamp>(1000 * (k % 3));
   recording.aiding[20].reading.velocity_body.y() = std::numeric_limits<double>::quiet_NaN();
   recording.aiding[50].reading.stamp = recording.aiding[10].reading.stamp;
   for (const char* name : {"batch", "fixed_lag"}) {
@@ -218,11 +229,14 @@ TEST(InsSmoother, StandsWhatSensorsReallySend) {
     EXPECT_EQ(estimator->failure(), "") << name;
     EXPECT_EQ(output.audits.size(), recording.aiding.size()) << name;
     const auto count = [&](Verdict verdict) {
-      return std::count_if(output.audits.begin(), output.audits.end(), [&](const Audit& a) { return a.verdict == verdict; });
+      return std::count_if(output.audits.begin(), output.audits.end(),
+                           [&](const Audit& a) { return a.verdict == verdict; });
     };
     EXPECT_EQ(count(Verdict::Stale), 1) << name;
-    EXPECT_EQ(output.solutions.size(), recording.imu.size() - 2) << name << ": one for each reading that is believed, but the first";
-    for (const auto& solution : output.solutions) EXPECT_TRUE(solution.state.velocity_nav.allFinite() && solution.covariance->allFinite()) << name;
+    EXPECT_EQ(output.solutions.size(), recording.imu.size() - 2)
+        << name << ": one for each reading that is believed, but the first";
+    for (const auto& solution : output.solutions)
+      EXPECT_TRUE(solution.state.velocity_nav.allFinite() && solution.covariance->allFinite()) << name;
     EXPECT_LT(positionError(output, scenario, 10), 10) << name;
   }
 }
@@ -241,7 +255,8 @@ TEST(InsSmoother, SaysWhyThereIsNoAnswer) {
 TEST(InsSmoother, CampaignsScoreItBesideTheFilters) {
   const auto suite = sas_motion::testing::suiteOf(
       "{runs: 1, campaigns: [{name: ins, system: ins_gps_dvl, scenario: " SAS_MOTION_SOURCE_DIR
-      "/config/scenarios/ins/survey.yaml, duration: 60, skip: 20, estimators: [robust_ckf27, batch, fixed_lag], laws: [{name: bad, noise: {law: contaminated, "
+      "/config/scenarios/ins/survey.yaml, duration: 60, skip: 20, estimators: [robust_ckf27, batch, fixed_lag], laws: "
+      "[{name: bad, noise: {law: contaminated, "
       "epsilon: 0.1, K: 30}}]}]}",
       makeAnyEstimator);
   const auto reports = suite.campaigns[0]->run(0, 1);
@@ -264,14 +279,17 @@ TEST(InsSmoother, GoesOnAfterAPause) {
     estimator->start(recording.start, 0);
     auto next = recording.aiding.begin();
     for (const auto& reading : recording.imu) {
-      for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) estimator->process(next->reading, output);
+      for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next)
+        estimator->process(next->reading, output);
       estimator->process(reading, output);
       if (reading.stamp == stampFromSeconds(30)) estimator->finish(output);
     }
     estimator->finish(output);
     EXPECT_EQ(output.solutions.size() + 1, recording.imu.size()) << name;
     EXPECT_EQ(output.audits.size(), recording.aiding.size()) << name;
-    EXPECT_LT(positionError(output, scenario, 20), 1.2 * positionError(outputOf("robust_ckf27", scenario, recording), scenario, 20)) << name;
+    EXPECT_LT(positionError(output, scenario, 20),
+              1.2 * positionError(outputOf("robust_ckf27", scenario, recording), scenario, 20))
+        << name;
   }
 }
 

@@ -36,11 +36,15 @@ double headingError(const ins::Solution& solution, const Scenario& scenario) {
 }
 
 std::string suiteText(const std::string& scenario, double duration, int runs, const std::string& laws) {
-  return "{runs: " + std::to_string(runs) + ", campaigns: [{name: sins, system: sins_dvl, scenario: " SAS_MOTION_SOURCE_DIR "/config/scenarios/sins_dvl/" +
-         scenario + ".yaml, duration: " + std::to_string(duration) + ", skip: 30, estimators: [batch], laws: " + laws + "}]}";
+  return "{runs: " + std::to_string(runs) +
+         ", campaigns: [{name: sins, system: sins_dvl, scenario: " SAS_MOTION_SOURCE_DIR "/config/scenarios/sins_dvl/" +
+         scenario + ".yaml, duration: " + std::to_string(duration) + ", skip: 30, estimators: [batch], laws: " + laws +
+         "}]}";
 }
 
-Suite suiteOf(const std::string& text) { return sas_motion::testing::suiteOf(text, ins::makeEstimator, makeAnyEstimator); }
+Suite suiteOf(const std::string& text) {
+  return sas_motion::testing::suiteOf(text, ins::makeEstimator, makeAnyEstimator);
+}
 
 TEST(SinsEstimators, AnswerToEveryName) {
   const Scenario scenario = largeAngle(5, 10);
@@ -61,7 +65,8 @@ TEST(SinsEstimators, BatchFindsTheSameOptimumFromAHeadingThatIsThirtyDegreesOff)
     auto right = wrong;
     right.start.q_nav_body = ins::Trajectory(scenario.track, scenario.duration).at(0).state.q_nav_body;
     const auto from_wrong = outputOf("batch", scenario, wrong), from_right = outputOf("batch", scenario, right);
-    // THEN they differ by what the beliefs differ in: 30 degrees by the share of the belief in what is known at the end, (1/30)^2
+    // THEN they differ by what the beliefs differ in: 30 degrees by the share of the belief in what is known at the
+    // end, (1/30)^2
     ASSERT_EQ(from_wrong.solutions.size(), from_right.solutions.size());
     for (std::size_t k = 0; k < from_wrong.solutions.size(); k += 500) {
       const auto &a = from_wrong.solutions[k], &b = from_right.solutions[k];
@@ -76,7 +81,8 @@ TEST(SinsEstimators, BothGraphsConvergeWhereTheFilterBySmallAnglesDoesNot) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const auto recording = recordingOf(scenario, seed);
     for (const char* name : {"batch", "fixed_lag"})
-      EXPECT_LT(std::abs(headingError(outputOf(name, scenario, recording).solutions.back(), scenario)), 3 * kRadPerDeg) << name << ", seed " << seed;
+      EXPECT_LT(std::abs(headingError(outputOf(name, scenario, recording).solutions.back(), scenario)), 3 * kRadPerDeg)
+          << name << ", seed " << seed;
   }
 }
 
@@ -92,9 +98,11 @@ TEST(SinsEstimators, ErrorsOfBatchFromThirtyDegreesAreAsLargeAsItsCovarianceSays
 }
 
 TEST(SinsEstimators, BatchStandsOutliersOfTheDvl) {
-  const auto suite = suiteOf(suiteText("accuracy", 120, 5, "[{name: clean}, {name: bad, noise: {law: contaminated, epsilon: 0.1, K: 50}}]"));
+  const auto suite = suiteOf(
+      suiteText("accuracy", 120, 5, "[{name: clean}, {name: bad, noise: {law: contaminated, epsilon: 0.1, K: 50}}]"));
   const auto runs = sas_motion::testing::runAll(suite);
-  EXPECT_LT(sas_motion::testing::rmse(suite, runs, "bad", "batch"), 1.2 * sas_motion::testing::rmse(suite, runs, "clean", "batch"));
+  EXPECT_LT(sas_motion::testing::rmse(suite, runs, "bad", "batch"),
+            1.2 * sas_motion::testing::rmse(suite, runs, "clean", "batch"));
 }
 
 }  // namespace

@@ -18,8 +18,9 @@ const FitOptions kExact{Loss(LossKind::Huber), false, 500, 1e-15};
 double apart(const Fit& a, const Fit& b, const Prior& prior) {
   double largest = 0;
   for (int i = 0; i < kUnknowns; ++i)
-    largest = std::max(
-        largest, prior.estimated[static_cast<std::size_t>(i)] ? std::abs(a.x(i) - b.x(i)) / std::sqrt(b.covariance(i, i)) : 1e9 * std::abs(a.x(i) - b.x(i)));
+    largest = std::max(largest, prior.estimated[static_cast<std::size_t>(i)]
+                                    ? std::abs(a.x(i) - b.x(i)) / std::sqrt(b.covariance(i, i))
+                                    : 1e9 * std::abs(a.x(i) - b.x(i)));
   return largest;
 }
 
@@ -88,7 +89,8 @@ TEST(UsblBatch, ARedescendingLossFindsTheTruthBesideTheScale) {
   EXPECT_LT(apart(graph, native, problem.prior), 1e-3);
   const Unknowns truth = Scenario::defaultTruth();
   for (int i = 0; i < kStates; ++i)
-    EXPECT_LT(std::abs(graph.x(i) - truth(i)), 4 * std::sqrt(graph.covariance(i, i))) << unknownNames()[static_cast<std::size_t>(i)];
+    EXPECT_LT(std::abs(graph.x(i) - truth(i)), 4 * std::sqrt(graph.covariance(i, i)))
+        << unknownNames()[static_cast<std::size_t>(i)];
 }
 
 TEST(UsblGnc, FindsTheOutliersAndKeepsTheRest) {
@@ -112,7 +114,8 @@ TEST(UsblGnc, FindsTheOutliersAndKeepsTheRest) {
   EXPECT_EQ(caught, large);
   EXPECT_GT(kept, 0.97 * good);
   for (int i = 0; i < kStates; ++i)
-    EXPECT_LT(std::abs(result.x(i) - truth(i)), 4 * std::sqrt(result.covariance(i, i))) << unknownNames()[static_cast<std::size_t>(i)];
+    EXPECT_LT(std::abs(result.x(i) - truth(i)), 4 * std::sqrt(result.covariance(i, i)))
+        << unknownNames()[static_cast<std::size_t>(i)];
 }
 
 TEST(UsblBatch, WithoutPingsThePriorIsAllThatIsKnown) {
@@ -122,7 +125,8 @@ TEST(UsblBatch, WithoutPingsThePriorIsAllThatIsKnown) {
     const Fit fit = makeFitter(name)(problem, FitOptions());
     EXPECT_EQ(fit.failure, "") << name;
     EXPECT_LT((fit.x - problem.prior.mean).norm(), 1e-9) << name;
-    for (int i = 0; i < kStates; ++i) EXPECT_NEAR(std::sqrt(fit.covariance(i, i)), problem.prior.sigma(i), 1e-6 * problem.prior.sigma(i)) << name;
+    for (int i = 0; i < kStates; ++i)
+      EXPECT_NEAR(std::sqrt(fit.covariance(i, i)), problem.prior.sigma(i), 1e-6 * problem.prior.sigma(i)) << name;
   }
 }
 
@@ -133,10 +137,12 @@ TEST(UsblBatch, ACentredCircleIsSolvedWithTheDoubtThatItLeaves) {
   for (const char* name : {"batch", "gnc"}) {
     const Fit fit = makeFitter(name)(problem, FitOptions());
     EXPECT_EQ(fit.failure, "") << name;
-    EXPECT_GT(std::sqrt(fit.covariance(kLeverY, kLeverY)), 0.3) << name << ": the fore-and-aft arm hides behind the pitch angle";
+    EXPECT_GT(std::sqrt(fit.covariance(kLeverY, kLeverY)), 0.3)
+        << name << ": the fore-and-aft arm hides behind the pitch angle";
     const Unknowns truth = Scenario::defaultTruth();
     for (int i = 0; i < kStates; ++i)
-      EXPECT_LT(std::abs(fit.x(i) - truth(i)), 4 * std::sqrt(fit.covariance(i, i))) << name << unknownNames()[static_cast<std::size_t>(i)];
+      EXPECT_LT(std::abs(fit.x(i) - truth(i)), 4 * std::sqrt(fit.covariance(i, i)))
+          << name << unknownNames()[static_cast<std::size_t>(i)];
   }
 }
 

@@ -16,8 +16,8 @@ using testing::simulatedProblem;
 
 Unknowns randomUnknowns(Random& random) {
   Unknowns x;
-  x << 0.3 * sas_motion::testing::randomMatrix<3>(random), 2 * sas_motion::testing::randomMatrix<3>(random), sas_motion::testing::randomMatrix<3>(random),
-      0.01 * random.gaussian();
+  x << 0.3 * sas_motion::testing::randomMatrix<3>(random), 2 * sas_motion::testing::randomMatrix<3>(random),
+      sas_motion::testing::randomMatrix<3>(random), 0.01 * random.gaussian();
   return x;
 }
 
@@ -52,12 +52,13 @@ TEST(UsblFactors, ChannelJacobiansMatchGtsamsNumericalOnes) {
           return gtsam::Vector(factor.unwhitenedError(changed));
         };
         const auto point = [&](gtsam::Key key) {
-          return gtsam::numericalDerivative11<gtsam::Vector, Point3>([&](const Point3& p) { return with(key, p); }, values.at<Point3>(key));
+          return gtsam::numericalDerivative11<gtsam::Vector, Point3>([&](const Point3& p) { return with(key, p); },
+                                                                     values.at<Point3>(key));
         };
-        const auto rotation =
-            gtsam::numericalDerivative11<gtsam::Vector, Rot3>([&](const Rot3& R) { return with(kMountingKey, R); }, values.at<Rot3>(kMountingKey));
-        const auto scale =
-            gtsam::numericalDerivative11<gtsam::Vector, double>([&](double s) { return with(kRangeScaleKey, s); }, values.at<double>(kRangeScaleKey));
+        const auto rotation = gtsam::numericalDerivative11<gtsam::Vector, Rot3>(
+            [&](const Rot3& R) { return with(kMountingKey, R); }, values.at<Rot3>(kMountingKey));
+        const auto scale = gtsam::numericalDerivative11<gtsam::Vector, double>(
+            [&](double s) { return with(kRangeScaleKey, s); }, values.at<double>(kRangeScaleKey));
         EXPECT_LT(std::abs(error(0) - with(kLeverKey, values.at<Point3>(kLeverKey))(0)), 1e-12);
         EXPECT_LT((H[0] - rotation).norm(), 1e-5 * std::max(1.0, rotation.norm())) << name << channel;
         EXPECT_LT((H[1] - point(kLeverKey)).norm(), 1e-6) << name << channel;
@@ -79,9 +80,10 @@ TEST(UsblFactors, TheMountingPriorsJacobianMatchesGtsamsNumericalOne) {
     const gtsam::Rot3 R(mountingRotation(x.head<3>()));
     gtsam::Matrix H;
     const gtsam::Vector error = factor.evaluateError(R, H);
-    EXPECT_LT(
-        (H - gtsam::numericalDerivative11<gtsam::Vector, gtsam::Rot3>([&](const gtsam::Rot3& at) { return factor.evaluateError(at, boost::none); }, R)).norm(),
-        1e-6);
+    EXPECT_LT((H - gtsam::numericalDerivative11<gtsam::Vector, gtsam::Rot3>(
+                       [&](const gtsam::Rot3& at) { return factor.evaluateError(at, boost::none); }, R))
+                  .norm(),
+              1e-6);
     EXPECT_LT(std::abs(error(kMountingZ)), 1);
     EXPECT_NEAR(error(kMountingX), x(kMountingX) - prior.mean(kMountingX), 1e-12);
   }
@@ -96,7 +98,8 @@ TEST(UsblFactors, TheGraphsErrorIsTheProblemsCost) {
       problem.scale << 1.2, 0.8, 0.9;
       const Unknowns x = Scenario::defaultTruth();
       const double expected = cost(problem, loss, x);
-      EXPECT_NEAR(buildGraph(problem, loss, x).error(valuesFrom(problem.prior, x)), expected, 1e-9 * expected) << mode << ", " << name;
+      EXPECT_NEAR(buildGraph(problem, loss, x).error(valuesFrom(problem.prior, x)), expected, 1e-9 * expected)
+          << mode << ", " << name;
     }
 }
 

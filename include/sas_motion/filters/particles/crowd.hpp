@@ -22,11 +22,12 @@ struct ParticleOptions {
   double resample_below = 0.5;  ///< effective size over the number of particles
   int threads = 1;              ///< the results are the same for any number
   std::uint64_t seed = 1;
-  std::optional<Loss> loss;  ///< against outliers: a row's noise grows by the inverse of its weight, for all particles alike
+  std::optional<Loss>
+      loss;  ///< against outliers: a row's noise grows by the inverse of its weight, for all particles alike
 };
 
-/// The report of one update of a particle filter. Invalid where z is no measurement, or where no particle explains it: then all are kept, with
-/// equal weights.
+/// The report of one update of a particle filter. Invalid where z is no measurement, or where no particle explains it:
+/// then all are kept, with equal weights.
 template <int M>
 struct ParticleUpdate {
   Vector<M> innovation = Vector<M>::Zero();  ///< z less the mean of h
@@ -38,8 +39,8 @@ struct ParticleUpdate {
   Verdict verdict = Verdict::Invalid;
 };
 
-/// What particle filters share: the particles in two buffers, their weights, threads and random numbers. A copy has the same threads, so that not both may
-/// be at work at a time.
+/// What particle filters share: the particles in two buffers, their weights, threads and random numbers. A copy has the
+/// same threads, so that not both may be at work at a time.
 template <class Particle>
 class Crowd {
  public:
@@ -62,7 +63,8 @@ class Crowd {
   /// Does `work(first, count)` for blocks of `together` particles; the last may have fewer.
   template <class Work>
   void forEachBlock(std::size_t together, const Work& work) {
-    team_->forEach((size() + together - 1) / together, [&](std::size_t task) { work(task * together, std::min(together, size() - task * together)); });
+    team_->forEach((size() + together - 1) / together,
+                   [&](std::size_t task) { work(task * together, std::min(together, size() - task * together)); });
   }
 
   /// Does `work(i)` for every particle.
@@ -84,9 +86,11 @@ class Crowd {
     return draws;
   }
 
-  /// Innovation, its covariance and the rows' weights, from `h` of each particle's state and `own`, the mean covariance that a particle has of h.
+  /// Innovation, its covariance and the rows' weights, from `h` of each particle's state and `own`, the mean covariance
+  /// that a particle has of h.
   template <int M, class State, class Function, class Difference>
-  ParticleUpdate<M> examine(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Matrix<M>& own, const Difference& difference, const State& state) {
+  ParticleUpdate<M> examine(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Matrix<M>& own,
+                            const Difference& difference, const State& state) {
     static_assert(M <= kMostRows);
     const auto predicted = [&](std::size_t i) { return Eigen::Map<Vector<M>>(predicted_.data() + kMostRows * i); };
     forEach([&](std::size_t i) { predicted(i) = h(state(particles_[i])); });
@@ -106,7 +110,8 @@ class Crowd {
     if (!root || !update.innovation.allFinite() || !choleskyLower<M>(R)) return update;
     update.nis = root->template triangularView<Eigen::Lower>().solve(update.innovation).squaredNorm();
     if (options_.loss)
-      for (int row = 0; row < M; ++row) update.weights(row) = options_.loss->weight(update.innovation(row) / std::sqrt(update.S(row, row)));
+      for (int row = 0; row < M; ++row)
+        update.weights(row) = options_.loss->weight(update.innovation(row) / std::sqrt(update.S(row, row)));
     update.verdict = verdictFromWeights<M>(update.weights);
     return update;
   }
@@ -117,8 +122,8 @@ class Crowd {
     return weights.cwiseMax(kTiny).cwiseSqrt().cwiseInverse().asDiagonal() * choleskyLower<M>(R).value();
   }
 
-  /// Normalises, and resamples where too few particles count; `renew(particle, copied, i)` makes the i-th of its parent, whose only one it
-  /// is or one of several.
+  /// Normalises, and resamples where too few particles count; `renew(particle, copied, i)` makes the i-th of its
+  /// parent, whose only one it is or one of several.
   template <int M, class Renew>
   void weigh(ParticleUpdate<M>& update, const Renew& renew) {
     if (!weights_.normalise()) {
@@ -132,7 +137,8 @@ class Crowd {
     resampleSystematically(weights_.values(), random(size()).uniform(), parents_);
     forEach([&](std::size_t i) {
       others_[i] = particles_[parents_[i]];
-      const bool after = i > 0 && parents_[i - 1] == parents_[i], before = i + 1 < size() && parents_[i + 1] == parents_[i];  // they are in order
+      const bool after = i > 0 && parents_[i - 1] == parents_[i],
+                 before = i + 1 < size() && parents_[i + 1] == parents_[i];  // they are in order
       renew(others_[i], after || before, i);
     });
     particles_.swap(others_);

@@ -34,17 +34,19 @@ class OneByOne {
         lost(k);
   }
 
-  /// z = h(x) + v; calls `weigh(k, log_likelihood)`, without the constant in 2 pi, and not a number where the belief could not read and stays.
+  /// z = h(x) + v; calls `weigh(k, log_likelihood)`, without the constant in 2 pi, and not a number where the belief
+  /// could not read and stays.
   template <int M, class Beliefs, class Function, class Difference, class Weigh>
-  void update(int count, const Beliefs& belief, const Vector<M>& z, const Function& h, const Matrix<M>& R_root, const Difference& difference,
-              const Weigh& weigh) const {
+  void update(int count, const Beliefs& belief, const Vector<M>& z, const Function& h, const Matrix<M>& R_root,
+              const Difference& difference, const Weigh& weigh) const {
     const Matrix<M> noise = Form::noise(R_root);
     for (int k = 0; k < count; ++k) weigh(k, updateOne<M>(belief(k), z, h, noise, difference));
   }
 
   /// Adds `weight(k)` times the belief's covariance and the square of its mean's distance from `mean`.
   template <class Beliefs, class Weights>
-  void addMoments(int count, const Beliefs& belief, const Weights& weight, const Vector<N>& mean, Matrix<N>& sum) const {
+  void addMoments(int count, const Beliefs& belief, const Weights& weight, const Vector<N>& mean,
+                  Matrix<N>& sum) const {
     for (int k = 0; k < count; ++k) {
       const Vector<N> offset = belief(k).mean - mean;
       sum.noalias() += weight(k) * (gaussian(belief(k)).covariance + offset * offset.transpose());
@@ -55,7 +57,8 @@ class OneByOne {
   using Form = BeliefForm<Belief>;
 
   template <int M, class Function, class Difference>
-  double updateOne(Belief& belief, const Vector<M>& z, const Function& h, const Matrix<M>& noise, const Difference& difference) const {
+  double updateOne(Belief& belief, const Vector<M>& z, const Function& h, const Matrix<M>& noise,
+                   const Difference& difference) const {
     const auto result = filter_.update(belief, z, h, noise, difference);
     const auto S_root = result.verdict == Verdict::Invalid ? std::nullopt : choleskyLower<M>(result.S);
     if (!S_root) return std::numeric_limits<double>::quiet_NaN();

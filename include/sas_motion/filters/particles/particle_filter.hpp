@@ -8,8 +8,8 @@
 
 namespace sas_motion {
 
-/// The bootstrap filter, sampling importance resampling: particles move by the model, with noise drawn for each, and are weighed by how well they
-/// explain what is measured. [Gordon1993]
+/// The bootstrap filter, sampling importance resampling: particles move by the model, with noise drawn for each, and
+/// are weighed by how well they explain what is measured. [Gordon1993]
 ///
 /// A step allocates nothing. Its results depend on the seed, not on the number of threads.
 template <int N>
@@ -28,7 +28,8 @@ class ParticleFilter {
     return true;
   }
 
-  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that comes to where numbers are not finite has no weight from then on.
+  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that comes to where numbers are not finite has no weight from
+  /// then on.
   template <class Function>
   void predict(const Function& f, const Matrix<N>& Q_root) {
     crowd_.nextStep();
@@ -43,11 +44,14 @@ class ParticleFilter {
 
   /// After reading z = h(x) + v, v ~ N(0, R).
   template <int M, class Function, class Difference = PlainDifference>
-  ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) {
+  ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R,
+                           const Difference& difference = {}) {
     auto update = crowd_.template examine<M>(z, h, R, Matrix<M>(Matrix<M>::Zero()), difference, state);
     if (update.verdict == Verdict::Invalid) return update;
     const Matrix<M> R_root = crowd_.noiseRoot(R, update.weights);
-    crowd_.forEach([&](std::size_t i) { crowd_.weights().multiply(i, logDensity<M>(difference(z, Vector<M>(h(crowd_[i]))), R_root)); });
+    crowd_.forEach([&](std::size_t i) {
+      crowd_.weights().multiply(i, logDensity<M>(difference(z, Vector<M>(h(crowd_[i]))), R_root));
+    });
     crowd_.weigh(update, [](Vector<N>&, bool, std::size_t) {});
     return update;
   }

@@ -11,8 +11,9 @@
 
 namespace sas_motion {
 
-/// OneByOne<SimplexFilter<N>>, its algebra by vector instructions, a particle a lane; f and h are called for each particle and point. The answers are the
-/// same to rounding. It goes one by one where there are no such instructions, for a block of one, and for a particle whose root cannot be downdated.
+/// OneByOne<SimplexFilter<N>>, its algebra by vector instructions, a particle a lane; f and h are called for each
+/// particle and point. The answers are the same to rounding. It goes one by one where there are no such instructions,
+/// for a block of one, and for a particle whose root cannot be downdated.
 ///
 /// Its room is on the stack: a step allocates nothing.
 template <int N>
@@ -37,7 +38,8 @@ class SimplexBlocks {
     Room room;
     load(count, belief, room);
     land<N>(count, room, f, room.offsets);
-    blocks::average(points_.mean_weights.data(), root_weights_.data(), N, kPoints, room.offsets.data(), room.mean.data());
+    blocks::average(points_.mean_weights.data(), root_weights_.data(), N, kPoints, room.offsets.data(),
+                    room.mean.data());
     room.root.setAll(Q_root);
     blocks::addSquares(room.root.data(), N, room.offsets.data(), kPoints);
     for (int k = 0; k < count; ++k)
@@ -49,8 +51,8 @@ class SimplexBlocks {
 
   /// See OneByOne.
   template <int M, class Beliefs, class Function, class Difference, class Weigh>
-  void update(int count, const Beliefs& belief, const Vector<M>& z, const Function& h, const Matrix<M>& R_root, const Difference& difference,
-              const Weigh& weigh) const {
+  void update(int count, const Beliefs& belief, const Vector<M>& z, const Function& h, const Matrix<M>& R_root,
+              const Difference& difference, const Weigh& weigh) const {
     static_assert(M <= blocks::kMostRows);
     if (!together(count)) return each_.template update<M>(count, belief, z, h, R_root, difference, weigh);
     Room room;
@@ -66,14 +68,16 @@ class SimplexBlocks {
         weigh(k, -0.5 * reading.nis(0, k) - reading.S_root.logDeterminant(k));
       } else {
         const auto it = [&](int) -> Belief& { return belief(k); };
-        each_.template update<M>(1, it, z, h, R_root, difference, [&](int, double log_likelihood) { weigh(k, log_likelihood); });
+        each_.template update<M>(1, it, z, h, R_root, difference,
+                                 [&](int, double log_likelihood) { weigh(k, log_likelihood); });
       }
     }
   }
 
   /// See OneByOne.
   template <class Beliefs, class Weights>
-  void addMoments(int count, const Beliefs& belief, const Weights& weight, const Vector<N>& mean, Matrix<N>& sum) const {
+  void addMoments(int count, const Beliefs& belief, const Weights& weight, const Vector<N>& mean,
+                  Matrix<N>& sum) const {
     if (!together(count)) return each_.addMoments(count, belief, weight, mean, sum);
     LaneRoot<N> root, sums;
     LaneMatrix<N> offset;
@@ -129,15 +133,16 @@ class SimplexBlocks {
     room.root.get(lane, belief.root);
   }
 
-  /// Where a function sends the points; `landed` may be the room's offsets. All lanes' points are laid out before the function is called, which would
-  /// otherwise wait for what has just been written.
+  /// Where a function sends the points; `landed` may be the room's offsets. All lanes' points are laid out before the
+  /// function is called, which would otherwise wait for what has just been written.
   template <int M, class Function>
   void land(int count, const Room& room, const Function& function, LaneMatrix<M, kPoints>& landed) const {
     Vector<N> x[blocks::kLanes];
     Vector<M> y[blocks::kLanes];
     for (int point = 0; point < kPoints; ++point) {
       for (int row = 0; row < N; ++row)
-        for (int lane = 0; lane < blocks::kLanes; ++lane) x[lane](row) = room.mean(row, lane) + room.offsets(row * kPoints + point, lane);
+        for (int lane = 0; lane < blocks::kLanes; ++lane)
+          x[lane](row) = room.mean(row, lane) + room.offsets(row * kPoints + point, lane);
       for (int lane = 0; lane < blocks::kLanes; ++lane) y[lane] = lane < count ? function(x[lane]) : y[count - 1];
       for (int row = 0; row < M; ++row)
         for (int lane = 0; lane < blocks::kLanes; ++lane) landed(row * kPoints + point, lane) = y[lane](row);
@@ -148,12 +153,14 @@ class SimplexBlocks {
   template <int M, class Difference>
   void compare(int count, const Vector<M>& z, const Difference& difference, Reading<M>& reading) const {
     if constexpr (std::is_same_v<Difference, PlainDifference>) {
-      blocks::average(points_.mean_weights.data(), root_weights_.data(), M, kPoints, reading.deviations.data(), reading.mean.data());
+      blocks::average(points_.mean_weights.data(), root_weights_.data(), M, kPoints, reading.deviations.data(),
+                      reading.mean.data());
     } else {
       for (int k = 0; k < count; ++k) {
         Matrix<M, kPoints> landed = reading.deviations.matrix(k);
         reading.mean.setColumn(0, k, average<M>(points_, Vector<M>(landed.col(0)), landed, difference));
-        for (int point = 0; point < kPoints; ++point) reading.deviations.setColumn(point, k, root_weights_(point) * landed.col(point));
+        for (int point = 0; point < kPoints; ++point)
+          reading.deviations.setColumn(point, k, root_weights_(point) * landed.col(point));
       }
       reading.deviations.fillFrom(count);
     }

@@ -13,20 +13,24 @@ namespace sas_motion {
 
 /// How the particles of an unscented particle filter are weighed.
 enum class Weighting {
-  Mixture,          ///< each particle is a Gaussian of a mixture, weighed by how it predicts z; drawn from where one is copied
+  Mixture,  ///< each particle is a Gaussian of a mixture, weighed by how it predicts z; drawn from where one is copied
   OptimalProposal,  ///< each is a point, moved by a draw from p(x | its last point, z)
-  Literal,          ///< each is a point with a filter's covariance of its own, moved by a draw from what that filter says [Merwe2000]
+  Literal,  ///< each is a point with a filter's covariance of its own, moved by a draw from what that filter says
+            ///< [Merwe2000]
 };
 
 struct UnscentedParticleOptions : ParticleOptions {
   Weighting weighting = Weighting::Mixture;
-  double kept = 0.95;  ///< of its covariance by each copy of a Gaussian; the copies are drawn from the rest, so that the mixture's stays
+  double kept = 0.95;  ///< of its covariance by each copy of a Gaussian; the copies are drawn from the rest, so that
+                       ///< the mixture's stays
 };
 
-/// A particle filter whose particles each run a sigma-point filter; `Filter` does so for a block of them. With SigmaPointFilter OneByOne and unscented
-/// points it is the UPF [Merwe2000], with SimplexBlocks, or SimplexFilter OneByOne, the SS-SRUPF [Li2014].
+/// A particle filter whose particles each run a sigma-point filter; `Filter` does so for a block of them. With
+/// SigmaPointFilter OneByOne and unscented points it is the UPF [Merwe2000], with SimplexBlocks, or SimplexFilter
+/// OneByOne, the SS-SRUPF [Li2014].
 ///
-/// A step allocates nothing. Its results depend on the seed, not on the number of threads. A single particle is its filter alone.
+/// A step allocates nothing. Its results depend on the seed, not on the number of threads. A single particle is its
+/// filter alone.
 template <int N, class Filter>
 class UnscentedParticleFilter {
  public:
@@ -43,9 +47,11 @@ class UnscentedParticleFilter {
   /// Draws the particles from a belief; false where its covariance is not positive definite.
   bool start(const Gaussian<N>& belief) { return start(belief, belief.covariance); }
 
-  /// Likewise; a Gaussian of the mixture keeps of `own` what a copy keeps and no more, so that a function is near enough to linear over it.
+  /// Likewise; a Gaussian of the mixture keeps of `own` what a copy keeps and no more, so that a function is near
+  /// enough to linear over it.
   bool start(const Gaussian<N>& belief, const Matrix<N>& own) {
-    const auto root = choleskyLower<N>(belief.covariance), drawn = choleskyLower<N>(belief.covariance - kept_ * own), kept = choleskyLower<N>(kept_ * own);
+    const auto root = choleskyLower<N>(belief.covariance), drawn = choleskyLower<N>(belief.covariance - kept_ * own),
+               kept = choleskyLower<N>(kept_ * own);
     if (!root || !drawn || !kept) return false;
     crowd_.nextStep();
     noise_root_.setZero();
@@ -59,7 +65,8 @@ class UnscentedParticleFilter {
     return true;
   }
 
-  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that comes to where numbers are not finite has no weight from then on.
+  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that comes to where numbers are not finite has no weight from
+  /// then on.
   template <class Function>
   void predict(const Function& f, const Matrix<N>& Q_root) {
     addSquares<N, N>(noise_root_, Q_root);
@@ -69,12 +76,14 @@ class UnscentedParticleFilter {
       if (weighting_ == Weighting::OptimalProposal)
         for (std::size_t i = first; i < first + count; ++i) crowd_[i].belief = Form::of(crowd_[i].moved, noise_root_);
       else
-        filter_.predict(static_cast<int>(count), beliefsFrom(first), f, Q_root,
-                        [&](int k) { crowd_.weights().multiply(first + static_cast<std::size_t>(k), std::numeric_limits<double>::quiet_NaN()); });
+        filter_.predict(static_cast<int>(count), beliefsFrom(first), f, Q_root, [&](int k) {
+          crowd_.weights().multiply(first + static_cast<std::size_t>(k), std::numeric_limits<double>::quiet_NaN());
+        });
     });
   }
 
-  /// Draws a step from N(0, root root^T) for every particle: for noise that is too wide for one Gaussian. A single particle is widened by it.
+  /// Draws a step from N(0, root root^T) for every particle: for noise that is too wide for one Gaussian. A single
+  /// particle is widened by it.
   void scatter(const Matrix<N>& root) {
     crowd_.nextStep();
     crowd_.forEach([&](std::size_t i) {
@@ -89,17 +98,19 @@ class UnscentedParticleFilter {
 
   /// After reading z = h(x) + v, v ~ N(0, R).
   template <int M, class Function, class Difference = PlainDifference>
-  ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Difference& difference = {}) {
+  ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R,
+                           const Difference& difference = {}) {
     auto update = crowd_.template examine<M>(z, h, R, ownCovariance<M>(h, difference), difference, state);
     if (update.verdict == Verdict::Invalid) return update;
     const Matrix<M> R_root = crowd_.noiseRoot(R, update.weights);
     crowd_.nextStep();
     crowd_.forEachBlock(Filter::kTogether, [&](std::size_t first, std::size_t count) {
-      filter_.template update<M>(static_cast<int>(count), beliefsFrom(first), z, h, R_root, difference, [&](int k, double log_likelihood) {
-        const std::size_t i = first + static_cast<std::size_t>(k);
-        const bool draws = weighting_ != Weighting::Mixture && std::isfinite(log_likelihood);
-        crowd_.weights().multiply(i, draws ? draw<M>(i, z, h, R_root, difference) : log_likelihood);
-      });
+      filter_.template update<M>(
+          static_cast<int>(count), beliefsFrom(first), z, h, R_root, difference, [&](int k, double log_likelihood) {
+            const std::size_t i = first + static_cast<std::size_t>(k);
+            const bool draws = weighting_ != Weighting::Mixture && std::isfinite(log_likelihood);
+            crowd_.weights().multiply(i, draws ? draw<M>(i, z, h, R_root, difference) : log_likelihood);
+          });
     });
     crowd_.weigh(update, [&](Particle& particle, bool copied, std::size_t i) {
       if (copied && weighting_ == Weighting::Mixture) split(particle, i);
@@ -122,8 +133,8 @@ class UnscentedParticleFilter {
     int count = 0;
     const auto addGathered = [&] {
       filter_.addMoments(
-          count, [&](int k) -> const Belief& { return *beliefs[static_cast<std::size_t>(k)]; }, [&](int k) { return weights[static_cast<std::size_t>(k)]; },
-          moments.mean, moments.covariance);
+          count, [&](int k) -> const Belief& { return *beliefs[static_cast<std::size_t>(k)]; },
+          [&](int k) { return weights[static_cast<std::size_t>(k)]; }, moments.mean, moments.covariance);
       count = 0;
     };
     const double sum = overFinite(crowd_, state, [&](std::size_t i, double weight) {
@@ -152,12 +163,14 @@ class UnscentedParticleFilter {
   template <int M, class Function, class Difference>
   Matrix<M> ownCovariance(const Function& h, const Difference& difference) const {
     const auto image = filter_.one().template project<M>(crowd_[crowd_.weights().heaviest()].belief, h, difference);
-    return image ? filter_.one().template secondMoment<M, M>(image->deviations, image->deviations) : Matrix<M>(Matrix<M>::Zero());
+    return image ? filter_.one().template secondMoment<M, M>(image->deviations, image->deviations)
+                 : Matrix<M>(Matrix<M>::Zero());
   }
 
   /// Draws a particle from what its filter says, and returns the logarithm of what its weight is multiplied by.
   template <int M, class Function, class Difference>
-  double draw(std::size_t i, const Vector<M>& z, const Function& h, const Matrix<M>& R_root, const Difference& difference) {
+  double draw(std::size_t i, const Vector<M>& z, const Function& h, const Matrix<M>& R_root,
+              const Difference& difference) {
     Particle& particle = crowd_[i];
     const auto root = Form::root(particle.belief);
     if (!root) return std::numeric_limits<double>::quiet_NaN();
@@ -170,7 +183,8 @@ class UnscentedParticleFilter {
 
   static void move(Particle& particle, const Vector<N>& x) { particle.moved = particle.belief.mean = x; }
 
-  /// Draws one of several copies from its parent's Gaussian and narrows it, so that together they have the parent's covariance.
+  /// Draws one of several copies from its parent's Gaussian and narrows it, so that together they have the parent's
+  /// covariance.
   void split(Particle& particle, std::size_t i) const {
     const auto root = Form::root(particle.belief);
     if (!root) return;
@@ -186,6 +200,7 @@ class UnscentedParticleFilter {
 };
 
 template <class Filter>
-UnscentedParticleFilter(const Filter&, const UnscentedParticleOptions&) -> UnscentedParticleFilter<decltype(Filter::Belief::mean)::RowsAtCompileTime, Filter>;
+UnscentedParticleFilter(const Filter&, const UnscentedParticleOptions&)
+    -> UnscentedParticleFilter<decltype(Filter::Belief::mean)::RowsAtCompileTime, Filter>;
 
 }  // namespace sas_motion

@@ -16,7 +16,8 @@ class ParticleWeights {
   void makeEqual();
   /// Multiplies by a likelihood; one that is not a number, or infinite, is taken for 0.
   void multiply(std::size_t particle, double log_likelihood);
-  /// Makes them add up to 1. Where every one is 0 they become equal, and the answer is false: no particle explains what was measured.
+  /// Makes them add up to 1. Where every one is 0 they become equal, and the answer is false: no particle explains what
+  /// was measured.
   bool normalise();
 
   /// Of the last normalise().
@@ -29,8 +30,8 @@ class ParticleWeights {
   std::vector<double> logarithms_, values_;
 };
 
-/// Systematic resampling: `parents` gets the particle that each new one comes from, in rising order, as often as its weight says give or take
-/// one. `uniform` is in [0, 1). [Kitagawa1996]
+/// Systematic resampling: `parents` gets the particle that each new one comes from, in rising order, as often as its
+/// weight says give or take one. `uniform` is in [0, 1). [Kitagawa1996]
 void resampleSystematically(const std::vector<double>& weights, double uniform, std::vector<std::size_t>& parents);
 
 }  // namespace sas_motion

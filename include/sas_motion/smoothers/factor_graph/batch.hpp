@@ -13,11 +13,12 @@ namespace sas_motion::towfish {
 gtsam::NonlinearFactorGraph buildGraph(const SmoothingProblem& problem, const Loss& loss);
 gtsam::Values initialValues(const std::vector<StateVector>& trajectory);
 
-/// Levenberg-Marquardt on the factor graph, marginals for the covariances. Redescending losses start from the Huber solution.
+/// Levenberg-Marquardt on the factor graph, marginals for the covariances. Redescending losses start from the Huber
+/// solution.
 SmootherResult smoothBatch(const SmoothingProblem& problem, const SmootherOptions& options);
 
-/// Graduated non-convexity with truncated least squares [Yang2020] on the same graph without losses: measurements are in or out, decided at
-/// the given share of good measurements kept; prior and motion are trusted.
+/// Graduated non-convexity with truncated least squares [Yang2020] on the same graph without losses: measurements are
+/// in or out, decided at the given share of good measurements kept; prior and motion are trusted.
 SmootherResult smoothGnc(const SmoothingProblem& problem, double probability);
 
 }  // namespace sas_motion::towfish

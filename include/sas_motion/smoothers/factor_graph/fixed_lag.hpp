@@ -9,9 +9,9 @@
 
 namespace sas_motion::towfish {
 
-/// The same graph over a sliding window, live: GTSAM's incremental fixed-lag smoother. A node is settled, and put out, when it leaves the
-/// window. Measurements wait `reorder` seconds for older ones, so that nodes are created in time order; later ones are stale.
-/// When the clock is set, or after a long gap, it starts anew.
+/// The same graph over a sliding window, live: GTSAM's incremental fixed-lag smoother. A node is settled, and put out,
+/// when it leaves the window. Measurements wait `reorder` seconds for older ones, so that nodes are created in time
+/// order; later ones are stale. When the clock is set, or after a long gap, it starts anew.
 class FixedLagSmoother final : public Estimator {
  public:
   explicit FixedLagSmoother(const Config& config);

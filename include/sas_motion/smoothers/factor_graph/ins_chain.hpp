@@ -9,11 +9,12 @@
 
 namespace sas_motion::ins {
 
-/// Cuts a run into nodes as it comes: one wherever a sensor that aids speaks, and wherever the last is long ago. robust_ckf27 runs beside
-/// and says where iterations start.
+/// Cuts a run into nodes as it comes: one wherever a sensor that aids speaks, and wherever the last is long ago.
+/// robust_ckf27 runs beside and says where iterations start.
 class InsChain {
  public:
-  /// A node with what was read at it and on the way into it. A node that stands already comes again where readings of its stamp come later.
+  /// A node with what was read at it and on the way into it. A node that stands already comes again where readings of
+  /// its stamp come later.
   struct Stop {
     Stamp stamp = 0;
     Node start;

@@ -15,14 +15,17 @@ namespace sas_motion::ins {
 using ModelPtr = std::shared_ptr<const ErrorModel>;
 using IntervalPtr = std::shared_ptr<const InertialInterval>;
 
-/// Two nodes and what the inertial unit read between them: the errors that the way integrated from the first has at the second. It is
-/// integrated anew at each linearisation, over the Earth as it is; Jacobians and noise are those of ErrorModel::transition. (C.4)
+/// Two nodes and what the inertial unit read between them: the errors that the way integrated from the first has at the
+/// second. It is integrated anew at each linearisation, over the Earth as it is; Jacobians and noise are those of
+/// ErrorModel::transition. (C.4)
 class InertialFactor final : public gtsam::NoiseModelFactor3<Node, Node, Constants> {
  public:
   /// The noise is frozen at `start`.
-  InertialFactor(gtsam::Key from, gtsam::Key to, const ModelPtr& model, const IntervalPtr& interval, const Node& start, const Constants& constants);
-  gtsam::Vector evaluateError(const Node& from, const Node& to, const Constants& constants, boost::optional<gtsam::Matrix&> H_from,
-                              boost::optional<gtsam::Matrix&> H_to, boost::optional<gtsam::Matrix&> H_constants) const override;
+  InertialFactor(gtsam::Key from, gtsam::Key to, const ModelPtr& model, const IntervalPtr& interval, const Node& start,
+                 const Constants& constants);
+  gtsam::Vector evaluateError(const Node& from, const Node& to, const Constants& constants,
+                              boost::optional<gtsam::Matrix&> H_from, boost::optional<gtsam::Matrix&> H_to,
+                              boost::optional<gtsam::Matrix&> H_constants) const override;
   gtsam::NonlinearFactor::shared_ptr clone() const override { return boost::make_shared<InertialFactor>(*this); }
 
  private:
@@ -31,21 +34,23 @@ class InertialFactor final : public gtsam::NoiseModelFactor3<Node, Node, Constan
   Vector<9> decay_;  // of what wanders, over the interval
 };
 
-/// One scalar row of a reading of a sensor that aids under a loss: the innovation of ErrorModel. A factor a row, since GTSAM gives a vector
-/// factor one weight.
+/// One scalar row of a reading of a sensor that aids under a loss: the innovation of ErrorModel. A factor a row, since
+/// GTSAM gives a vector factor one weight.
 class AidingFactor final : public gtsam::NoiseModelFactor {
  public:
   /// `rate_body` is that of the body against inertial space at the reading; `loss` is on the row.
-  AidingFactor(gtsam::Key node, const ModelPtr& model, const Aiding& reading, const Vector<3>& rate_body, int row, const Loss& loss);
-  gtsam::Vector unwhitenedError(const gtsam::Values& values, boost::optional<std::vector<gtsam::Matrix>&> H = boost::none) const override;
+  AidingFactor(gtsam::Key node, const ModelPtr& model, const Aiding& reading, const Vector<3>& rate_body, int row,
+               const Loss& loss);
+  gtsam::Vector unwhitenedError(const gtsam::Values& values,
+                                boost::optional<std::vector<gtsam::Matrix>&> H = boost::none) const override;
   gtsam::NonlinearFactor::shared_ptr clone() const override { return boost::make_shared<AidingFactor>(*this); }
   /// The error over its standard deviation, before the loss.
   double residual(const gtsam::Values& values) const { return unwhitenedError(values)(0) / sigma_; }
 
  private:
   /// What a DVL's scale, misalignment and lever arm change.
-  void distort(const gtsam::Values& values, const LinearMeasurement<kStates, 3>& z, double& error, Matrix<1, kStates>& row,
-               boost::optional<std::vector<gtsam::Matrix>&> H) const;
+  void distort(const gtsam::Values& values, const LinearMeasurement<kStates, 3>& z, double& error,
+               Matrix<1, kStates>& row, boost::optional<std::vector<gtsam::Matrix>&> H) const;
 
   ModelPtr model_;
   Aiding reading_;

@@ -22,7 +22,8 @@ struct InertialInterval {
   double duration = 0;                   ///< [s]
 };
 
-/// Where an interval leads from a node with the constants taken out of its readings, and how fast errors grow on the way.
+/// Where an interval leads from a node with the constants taken out of its readings, and how fast errors grow on the
+/// way.
 struct Integrated {
   NavigationState end;
   ErrorModel::Motion motion;  ///< means over the interval
@@ -30,7 +31,8 @@ struct Integrated {
 
 /// Integrates an interval. `visit(mechanisation, piece)` follows each piece.
 template <class Visit>
-Integrated integrate(const InertialInterval& interval, const Node& from, const Constants& constants, const Visit& visit) {
+Integrated integrate(const InertialInterval& interval, const Node& from, const Constants& constants,
+                     const Visit& visit) {
   const Vector<3> drift = kDrift * (constants.head<3>() + from.wandering.head<3>()), bias = kBias * constants.tail<3>();
   Mechanisation ins = interval.begin;
   ins.reset(from.state);

@@ -8,9 +8,9 @@
 
 namespace sas_motion::ins {
 
-/// The fusion as a factor graph. A node is settled and put out when it is older than the lag, or at the end; `batch` waits for that.
-/// Between two nodes the answer is integrated from the first, and what it misses the second by is spread over the time between them, so that
-/// it nowhere jumps.
+/// The fusion as a factor graph. A node is settled and put out when it is older than the lag, or at the end; `batch`
+/// waits for that. Between two nodes the answer is integrated from the first, and what it misses the second by is
+/// spread over the time between them, so that it nowhere jumps.
 class InsSmoother final : public Estimator {
  public:
   struct Options {

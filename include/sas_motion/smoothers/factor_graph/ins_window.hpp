@@ -14,15 +14,18 @@
 
 namespace sas_motion::ins {
 
-/// Nodes in time order with their factors. They are solved together; the oldest are forgotten, and what they say stays as a prior.
+/// Nodes in time order with their factors. They are solved together; the oldest are forgotten, and what they say stays
+/// as a prior.
 class InsWindow {
  public:
   /// Begins with what a filter believes at a stamp. Weights of readings follow the loss.
-  InsWindow(const ErrorModel& model, const Loss& loss, const NavigationState& fused, const Gaussian<kStates>& belief, Stamp stamp);
+  InsWindow(const ErrorModel& model, const Loss& loss, const NavigationState& fused, const Gaussian<kStates>& belief,
+            Stamp stamp);
 
   /// Adds a node, or readings to the last one where it has the stop's stamp.
   void add(const InsChain::Stop& stop);
-  /// Levenberg-Marquardt, then the covariances. Returns in plain words why there is no solution, or nothing; what was there stays then.
+  /// Levenberg-Marquardt, then the covariances. Returns in plain words why there is no solution, or nothing; what was
+  /// there stays then.
   std::string solve(int max_iterations, double tolerance);
   /// Takes the first nodes out: their factors become a linear one on the next node and the constants. (marginalisation)
   void forget(std::size_t count);
@@ -31,7 +34,8 @@ class InsWindow {
   Stamp stamp(std::size_t k) const { return places_[k].stamp; }
   Node node(std::size_t k) const { return values_.at<Node>(places_[k].key); }
   Constants constants() const { return values_.at<Constants>(kConstantsKey); }
-  /// Of the scale [-], the misalignment [rad] and the lever arm [m] of the DVL, each less what it is told to be; 0 where they are not estimated.
+  /// Of the scale [-], the misalignment [rad] and the lever arm [m] of the DVL, each less what it is told to be; 0
+  /// where they are not estimated.
   double dvlScale() const { return values_.exists(kDvlScaleKey) ? values_.at<double>(kDvlScaleKey) : 0; }
   Vector<3> dvlMisalignment() const { return vectorAt(kDvlMisalignmentKey); }
   Vector<3> dvlLever() const { return vectorAt(kDvlLeverKey); }
@@ -61,7 +65,9 @@ class InsWindow {
     Matrix<9> covariance = Matrix<9>::Zero();
   };
 
-  Vector<3> vectorAt(gtsam::Key key) const { return values_.exists(key) ? Vector<3>(values_.at<gtsam::Vector3>(key)) : Vector<3>::Zero(); }
+  Vector<3> vectorAt(gtsam::Key key) const {
+    return values_.exists(key) ? Vector<3>(values_.at<gtsam::Vector3>(key)) : Vector<3>::Zero();
+  }
   /// A constant that is zero but for a standard deviation; nothing where that is 0.
   void addConstant(gtsam::Key key, double sigma);
   /// Where a sensor is from now on; factors that stand keep what they were told.

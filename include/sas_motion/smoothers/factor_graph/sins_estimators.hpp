@@ -6,8 +6,8 @@
 
 namespace sas_motion::sins {
 
-/// All estimators: those of makeEstimator and batch, fixed_lag, which know the same sensors and start from the same attitude, however wrong. Null for an
-/// unknown name.
+/// All estimators: those of makeEstimator and batch, fixed_lag, which know the same sensors and start from the same
+/// attitude, however wrong. Null for an unknown name.
 std::unique_ptr<ins::Estimator> makeAnyEstimator(const std::string& name, const Config& config);
 
 /// The names makeAnyEstimator knows.

@@ -28,7 +28,8 @@ class MotionFactor final : public gtsam::NoiseModelFactor2<StateVector, StateVec
   double dt_;
 };
 
-/// One scalar row of a measurement under a loss: error h(x) - z. A factor a row, since GTSAM gives a vector factor one weight.
+/// One scalar row of a measurement under a loss: error h(x) - z. A factor a row, since GTSAM gives a vector factor one
+/// weight.
 class RowFactor final : public gtsam::NoiseModelFactor1<StateVector> {
  public:
   RowFactor(Key key, const Model& model, const Measurement& z, int row, const Loss& loss);

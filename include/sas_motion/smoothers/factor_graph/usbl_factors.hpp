@@ -33,12 +33,14 @@ Vector<3> mountingAngles(const gtsam::Rot3& rotation);
 /// Their change with the rotation R Exp(w), d angles / dw.
 Matrix<3> mountingAnglesJacobian(const Vector<3>& angles);
 
-/// One channel of a ping under a loss: error h(x) - z. A factor a channel, since GTSAM gives a vector factor one weight.
+/// One channel of a ping under a loss: error h(x) - z. A factor a channel, since GTSAM gives a vector factor one
+/// weight.
 class ChannelFactor final : public gtsam::NoiseModelFactor {
  public:
   /// `known` holds the unknowns that the graph has no variable for.
   ChannelFactor(const Problem& problem, const Ping& ping, int channel, const Loss& loss, const Unknowns& known);
-  gtsam::Vector unwhitenedError(const gtsam::Values& values, boost::optional<std::vector<gtsam::Matrix>&> H = boost::none) const override;
+  gtsam::Vector unwhitenedError(const gtsam::Values& values,
+                                boost::optional<std::vector<gtsam::Matrix>&> H = boost::none) const override;
   gtsam::NonlinearFactor::shared_ptr clone() const override { return boost::make_shared<ChannelFactor>(*this); }
 
  private:
