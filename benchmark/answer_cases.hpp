@@ -8,7 +8,7 @@
 
 #include "sas_motion/filters/linearized.hpp"
 #include "sas_motion/math/gaussian.hpp"
-#include "sas_motion/models/towfish.hpp"
+#include "sas_motion/systems/towfish/model.hpp"
 
 namespace sas_motion::benchmark {
 

@@ -19,15 +19,15 @@
 #include <vector>
 
 #include "campaign/imaging_measures.hpp"
-#include "campaign/imaging_survey.hpp"
-#include "campaign/ins_campaign.hpp"
-#include "sas_motion/config/focus_config.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
+#include "sas_motion/imaging/focus_config.hpp"
 #include "sas_motion/imaging/micronavigation.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
 #include "sas_motion/math/statistics.hpp"
 #include "sas_motion/parallel/threads.hpp"
-#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
+#include "systems/ins_gps_dvl/campaign.hpp"
+#include "systems/ins_gps_dvl/graph/smoother.hpp"
+#include "systems/ins_gps_dvl/imaging_survey.hpp"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "sas_motion/filters/mixture_kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
-#include "sas_motion/models/towfish.hpp"
+#include "sas_motion/systems/towfish/model.hpp"
 #ifdef SAS_MOTION_WITH_OPENCV
 #include <opencv2/video/tracking.hpp>
 #endif

@@ -15,8 +15,8 @@
 #include "parallel/instruction_sets.hpp"
 #include "sas_motion/filters/particles/blocks.hpp"
 #include "sas_motion/math/statistics.hpp"
-#include "sas_motion/pipeline/sins_estimator.hpp"
-#include "sas_motion/simulation/sins_scenario.hpp"
+#include "sas_motion/systems/sins_dvl/estimator.hpp"
+#include "sas_motion/systems/sins_dvl/scenario.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <sensor_msgs/NavSatFix.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "sas_motion/bag/bag_reader.hpp"
+#include "bag/bag_reader.hpp"
 
 namespace {
 

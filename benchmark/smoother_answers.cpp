@@ -11,9 +11,9 @@
 #include <limits>
 
 #include "answer_cases.hpp"
-#include "sas_motion/simulation/simulator.hpp"
-#include "sas_motion/smoothers/factor_graph/batch.hpp"
-#include "sas_motion/smoothers/rts.hpp"
+#include "sas_motion/systems/towfish/rts.hpp"
+#include "sas_motion/systems/towfish/simulator.hpp"
+#include "systems/towfish/graph/batch.hpp"
 
 namespace {
 

@@ -10,10 +10,10 @@
 #include <cstdlib>
 #include <map>
 
-#include "sas_motion/calibration/observability.hpp"
-#include "sas_motion/campaign/usbl_campaign.hpp"
 #include "sas_motion/math/statistics.hpp"
-#include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
+#include "sas_motion/systems/usbl/observability.hpp"
+#include "systems/usbl/campaign.hpp"
+#include "systems/usbl/graph/batch.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 // the factor graph.
 #include <benchmark/benchmark.h>
 
-#include "sas_motion/calibration/calibrator.hpp"
-#include "sas_motion/simulation/usbl_simulator.hpp"
-#include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
+#include "sas_motion/systems/usbl/calibrator.hpp"
+#include "sas_motion/systems/usbl/simulator.hpp"
+#include "systems/usbl/graph/batch.hpp"
 
 namespace {
 

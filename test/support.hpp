@@ -10,11 +10,11 @@
 #include <Eigen/Eigenvalues>
 #include <iostream>
 
-#include "sas_motion/config/towfish_config.hpp"
 #include "sas_motion/filters/linearized.hpp"
 #include "sas_motion/math/gaussian.hpp"
 #include "sas_motion/math/random.hpp"
-#include "sas_motion/simulation/simulator.hpp"
+#include "sas_motion/systems/towfish/config.hpp"
+#include "sas_motion/systems/towfish/simulator.hpp"
 
 namespace sas_motion::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/bag/bag_output.hpp"
+#include "bag/bag_output.hpp"
 
 namespace sas_motion::ros_side {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/bag/chunk_file.hpp"
+#include "bag/chunk_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "sas_motion/bag/decompress.hpp"
+#include "bag/decompress.hpp"
 
 namespace sas_motion::ros_side {
 

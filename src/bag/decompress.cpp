@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/bag/decompress.hpp"
+#include "bag/decompress.hpp"
 
 #include <bzlib.h>
 #include <roslz4/lz4s.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/bag/recording.hpp"
+#include "bag/recording.hpp"
 
 #include <fmt/format.h>
 #include <sas_motion/MeasurementLabel.h>
@@ -10,8 +10,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "sas_motion/bag/bag_reader.hpp"
-#include "sas_motion/bag/topics.hpp"
+#include "bag/bag_reader.hpp"
+#include "bag/topics.hpp"
 
 namespace sas_motion::ros_side {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/bag/reprocess.hpp"
+#include "bag/reprocess.hpp"
 
 #include <fmt/format.h>
 #include <tf2_msgs/TFMessage.h>
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "sas_motion/bag/topics.hpp"
+#include "bag/topics.hpp"
 
 namespace sas_motion::ros_side {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "imaging_measures.hpp"
+#include "campaign/imaging_measures.hpp"
 
 namespace sas_motion::imaging {
 namespace {

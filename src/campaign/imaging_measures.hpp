@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sas_motion/campaign/report.hpp"
+#include "campaign/report.hpp"
 #include "sas_motion/imaging/focus_bench.hpp"
 
 namespace sas_motion::imaging {

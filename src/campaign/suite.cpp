@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/campaign/suite.hpp"
+#include "campaign/suite.hpp"
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "campaign/systems.hpp"
 #include "sas_motion/io/fingerprint.hpp"
-#include "systems.hpp"
 
 namespace sas_motion {
 namespace {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sas_motion/calibration/fitter.hpp"
-#include "sas_motion/campaign/system.hpp"
-#include "sas_motion/campaign/towfish_campaign.hpp"
+#include "campaign/system.hpp"
 #include "sas_motion/evaluation/bounds.hpp"
-#include "sas_motion/pipeline/sins_estimator.hpp"
-#include "sas_motion/simulation/ins_scenario.hpp"
-#include "sas_motion/simulation/sins_scenario.hpp"
+#include "sas_motion/systems/ins_gps_dvl/scenario.hpp"
+#include "sas_motion/systems/sins_dvl/estimator.hpp"
+#include "sas_motion/systems/sins_dvl/scenario.hpp"
+#include "sas_motion/systems/usbl/fitter.hpp"
+#include "systems/towfish/campaign.hpp"
 
 namespace sas_motion {
 

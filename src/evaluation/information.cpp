@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "sas_motion/evaluation/noise_density.hpp"
-#include "sas_motion/simulation/noise_source.hpp"
+#include "sas_motion/noise/noise_source.hpp"
 
 namespace sas_motion {
 namespace {

@@ -6,7 +6,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
-#include "sas_motion/simulation/noise_source.hpp"
+#include "sas_motion/noise/noise_source.hpp"
 
 namespace sas_motion {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "bank_moments.hpp"
-#include "bank_reading.hpp"
+#include "filters/bank_moments.hpp"
+#include "filters/bank_reading.hpp"
 #include "sas_motion/filters/bank_kalman_filter.hpp"
 
 namespace sas_motion {

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "bank_judgement.hpp"
-#include "bank_moments.hpp"
-#include "instantiate.hpp"
+#include "filters/bank_judgement.hpp"
+#include "filters/bank_moments.hpp"
+#include "filters/instantiate.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "instantiate.hpp"
+#include "filters/instantiate.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"

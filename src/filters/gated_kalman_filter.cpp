@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "instantiate.hpp"
+#include "filters/instantiate.hpp"
 
 namespace sas_motion {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "instantiate.hpp"
+#include "filters/instantiate.hpp"
 
 namespace sas_motion {
 namespace {

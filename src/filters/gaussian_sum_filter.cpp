@@ -8,8 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "gaussian_sum_row.hpp"
-#include "instantiate.hpp"
+#include "filters/gaussian_sum_row.hpp"
+#include "filters/instantiate.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gaussian_sum_row.hpp"
+#include "filters/gaussian_sum_row.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "instantiate.hpp"
+#include "filters/instantiate.hpp"
 
 namespace sas_motion {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/filters/kalman_filter.hpp"
 
-#include "instantiate.hpp"
+#include "filters/instantiate.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "instantiate.hpp"
+#include "filters/instantiate.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {

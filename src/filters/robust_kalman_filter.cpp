@@ -6,9 +6,9 @@
 
 #include <stdexcept>
 
-#include "instantiate.hpp"
+#include "filters/instantiate.hpp"
+#include "filters/whitening.hpp"
 #include "sas_motion/filters/conditioning.hpp"
-#include "whitening.hpp"
 
 namespace sas_motion {
 namespace {

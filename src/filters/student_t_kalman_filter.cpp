@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "instantiate.hpp"
+#include "filters/instantiate.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {

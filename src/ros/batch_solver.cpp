@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/ros/batch_solver.hpp"
+#include "ros/batch_solver.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "sas_motion/ros/serving.hpp"
-#include "sas_motion/smoothers/factor_graph/estimators.hpp"
+#include "ros/serving.hpp"
+#include "systems/towfish/graph/estimators.hpp"
 
 namespace sas_motion::ros_side {
 

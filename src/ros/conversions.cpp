@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/ros/conversions.hpp"
+#include "ros/conversions.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <stdexcept>
 
-#include "sas_motion/ros/believed_variance.hpp"
+#include "ros/believed_variance.hpp"
 
 namespace sas_motion::ros_side {
 namespace {

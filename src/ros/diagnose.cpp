@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What the nodelets say on /diagnostics.
-#include "sas_motion/ros/estimator_server.hpp"
+#include "ros/estimator_server.hpp"
 
 namespace sas_motion::ros_side {
 

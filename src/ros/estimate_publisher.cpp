@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/ros/estimate_publisher.hpp"
+#include "ros/estimate_publisher.hpp"
 
-#include "sas_motion/ros/serving.hpp"
+#include "ros/serving.hpp"
 
 namespace sas_motion::ros_side {
 

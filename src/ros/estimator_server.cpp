@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/ros/estimator_server.hpp"
+#include "ros/estimator_server.hpp"
 
 #include <fmt/format.h>
 
-#include "sas_motion/smoothers/factor_graph/estimators.hpp"
+#include "systems/towfish/graph/estimators.hpp"
 
 namespace sas_motion::ros_side {
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/ros/ins_server.hpp"
+#include "ros/ins_server.hpp"
 
 #include <algorithm>
 
-#include "sas_motion/ros/ins_remarks.hpp"
+#include "systems/ins_gps_dvl/ros/remarks.hpp"
 
 namespace sas_motion::ros_side {
 namespace {

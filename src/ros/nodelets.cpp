@@ -4,9 +4,9 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "sas_motion/ros/calibration_server.hpp"
-#include "sas_motion/ros/estimator_server.hpp"
-#include "sas_motion/ros/ins_server.hpp"
+#include "ros/estimator_server.hpp"
+#include "ros/ins_server.hpp"
+#include "systems/usbl/ros/calibration_server.hpp"
 
 namespace sas_motion {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/ros/reconfigure.hpp"
+#include "ros/reconfigure.hpp"
 
 namespace sas_motion::ros_side {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "sas_motion/ros/estimator_server.hpp"
+#include "ros/estimator_server.hpp"
 
 namespace sas_motion::ros_side {
 

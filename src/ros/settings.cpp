@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/ros/settings.hpp"
+#include "ros/settings.hpp"
 
 #include "sas_motion/config/yaml_vector.hpp"
 

@@ -6,12 +6,12 @@
 
 #include <filesystem>
 
-#include "main_guard.hpp"
-#include "progress.hpp"
-#include "sas_motion/bag/bag_reader.hpp"
+#include "bag/bag_reader.hpp"
 #include "sas_motion/io/atomic_file.hpp"
-#include "sas_motion/ros/calibration_result.hpp"
-#include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
+#include "systems/usbl/graph/batch.hpp"
+#include "systems/usbl/ros/calibration_result.hpp"
+#include "tools/main_guard.hpp"
+#include "tools/progress.hpp"
 
 namespace {
 

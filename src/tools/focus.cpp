@@ -8,12 +8,12 @@
 
 #include <filesystem>
 
-#include "focus_document.hpp"
-#include "focus_window.hpp"
-#include "main_guard.hpp"
-#include "progress.hpp"
-#include "sas_motion/config/focus_config.hpp"
+#include "sas_motion/imaging/focus_config.hpp"
 #include "sas_motion/io/atomic_file.hpp"
+#include "tools/focus_document.hpp"
+#include "tools/focus_window.hpp"
+#include "tools/main_guard.hpp"
+#include "tools/progress.hpp"
 
 namespace {
 

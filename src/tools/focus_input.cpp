@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "focus_input.hpp"
+#include "tools/focus_input.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <optional>
 #include <set>
 
-#include "sas_motion/bag/bag_reader.hpp"
-#include "sas_motion/bag/topics.hpp"
-#include "sas_motion/ros/conversions.hpp"
+#include "bag/bag_reader.hpp"
+#include "bag/topics.hpp"
+#include "ros/conversions.hpp"
 
 namespace sas_motion {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "focus_input.hpp"
 #include "sas_motion/imaging/focus_result.hpp"
+#include "tools/focus_input.hpp"
 
 namespace sas_motion {
 

@@ -9,12 +9,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "main_guard.hpp"
-#include "sas_motion/calibration/observability.hpp"
 #include "sas_motion/evaluation/information.hpp"
 #include "sas_motion/math/angles.hpp"
-#include "sas_motion/ros/usbl_settings.hpp"
-#include "sas_motion/simulation/usbl_simulator.hpp"
+#include "sas_motion/systems/usbl/observability.hpp"
+#include "sas_motion/systems/usbl/simulator.hpp"
+#include "systems/usbl/ros/settings.hpp"
+#include "tools/main_guard.hpp"
 
 namespace {
 

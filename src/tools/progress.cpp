@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "progress.hpp"
+#include "tools/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

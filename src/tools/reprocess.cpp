@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // reprocess IN.bag...: estimators over recorded bags.
-#include "sas_motion/bag/reprocess.hpp"
+#include "bag/reprocess.hpp"
 
 #include <fmt/format.h>
 
@@ -17,10 +17,10 @@
 #include <set>
 #include <thread>
 
-#include "main_guard.hpp"
-#include "progress.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/io/fingerprint.hpp"
+#include "tools/main_guard.hpp"
+#include "tools/progress.hpp"
 
 namespace {
 

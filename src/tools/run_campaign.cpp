@@ -12,15 +12,15 @@
 #include <numeric>
 #include <thread>
 
-#include "focus_document.hpp"
-#include "main_guard.hpp"
-#include "sas_motion/campaign/ordered_tasks.hpp"
-#include "sas_motion/campaign/suite.hpp"
+#include "campaign/ordered_tasks.hpp"
+#include "campaign/suite.hpp"
 #include "sas_motion/io/atomic_file.hpp"
-#include "sas_motion/smoothers/factor_graph/estimators.hpp"
-#include "sas_motion/smoothers/factor_graph/ins_smoother.hpp"
-#include "sas_motion/smoothers/factor_graph/sins_estimators.hpp"
-#include "sas_motion/smoothers/factor_graph/usbl_batch.hpp"
+#include "systems/ins_gps_dvl/graph/smoother.hpp"
+#include "systems/sins_dvl/graph/estimators.hpp"
+#include "systems/towfish/graph/estimators.hpp"
+#include "systems/usbl/graph/batch.hpp"
+#include "tools/focus_document.hpp"
+#include "tools/main_guard.hpp"
 
 namespace {
 

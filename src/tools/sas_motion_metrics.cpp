@@ -12,10 +12,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "main_guard.hpp"
-#include "sas_motion/bag/recording.hpp"
-#include "sas_motion/bag/tum.hpp"
+#include "bag/recording.hpp"
+#include "bag/tum.hpp"
 #include "sas_motion/math/statistics.hpp"
+#include "tools/main_guard.hpp"
 
 namespace {
 

@@ -4,12 +4,12 @@
 // simulate SCENARIO.yaml -o OUT.bag: a scenario to a bag with sensors and truth.
 #include <cmath>
 
-#include "ins_recorder.hpp"
-#include "main_guard.hpp"
-#include "progress.hpp"
-#include "sas_motion/bag/bag_output.hpp"
-#include "towfish_recorder.hpp"
-#include "usbl_recorder.hpp"
+#include "bag/bag_output.hpp"
+#include "systems/ins_gps_dvl/ros/recorder.hpp"
+#include "systems/towfish/ros/recorder.hpp"
+#include "systems/usbl/ros/recorder.hpp"
+#include "tools/main_guard.hpp"
+#include "tools/progress.hpp"
 
 namespace {
 

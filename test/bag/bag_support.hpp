@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "sas_motion/bag/bag_reader.hpp"
+#include "bag/bag_reader.hpp"
 
 namespace sas_motion::ros_side {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/bag/bag_writer.hpp"
+#include "bag/bag_writer.hpp"
 
 #include <gtest/gtest.h>
 

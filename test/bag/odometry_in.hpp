@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "sas_motion/bag/bag_reader.hpp"
-#include "sas_motion/ros/ins_conversions.hpp"
+#include "bag/bag_reader.hpp"
+#include "systems/ins_gps_dvl/ros/conversions.hpp"
 
 namespace sas_motion::ros_side {
 

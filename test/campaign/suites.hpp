@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sas_motion/campaign/ordered_tasks.hpp"
-#include "sas_motion/campaign/suite.hpp"
+#include "campaign/ordered_tasks.hpp"
+#include "campaign/suite.hpp"
 #include "support.hpp"
 
 namespace sas_motion::testing {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "noise/laws.hpp"
 #include "sas_motion/evaluation/noise_density.hpp"
-#include "sas_motion/simulation/noise_source.hpp"
-#include "simulation/laws.hpp"
+#include "sas_motion/noise/noise_source.hpp"
 #include "support.hpp"
 
 namespace sas_motion {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "simulation/laws.hpp"
+#include "noise/laws.hpp"
 #include "support.hpp"
 
 namespace sas_motion {

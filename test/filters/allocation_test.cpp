@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "sas_motion/calibration/calibrator.hpp"
 #include "sas_motion/filters/bank_kalman_filter.hpp"
 #include "sas_motion/filters/calibrated_filter.hpp"
 #include "sas_motion/filters/gated_kalman_filter.hpp"
@@ -17,9 +16,10 @@
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
-#include "sas_motion/models/towfish.hpp"
 #include "sas_motion/navigation/mechanisation.hpp"
-#include "sas_motion/simulation/usbl_simulator.hpp"
+#include "sas_motion/systems/towfish/model.hpp"
+#include "sas_motion/systems/usbl/calibrator.hpp"
+#include "sas_motion/systems/usbl/simulator.hpp"
 #include "support.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

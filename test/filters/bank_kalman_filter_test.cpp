@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sas_motion/models/constant_velocity.hpp"
+#include "sas_motion/systems/constant_velocity/model.hpp"
 #include "support.hpp"
 
 namespace sas_motion {

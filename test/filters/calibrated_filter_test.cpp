@@ -8,7 +8,7 @@
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/filters/student_t_kalman_filter.hpp"
 #include "sas_motion/math/statistics.hpp"
-#include "sas_motion/models/constant_velocity.hpp"
+#include "sas_motion/systems/constant_velocity/model.hpp"
 #include "support.hpp"
 
 namespace sas_motion {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sas_motion/math/random.hpp"
-#include "sas_motion/models/constant_velocity.hpp"
+#include "sas_motion/systems/constant_velocity/model.hpp"
 
 namespace sas_motion::testing {
 

@@ -4,7 +4,7 @@
 // Sigma-point filters on bent models: beside a fine Monte Carlo, across +-pi, and over whole runs.
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/math/statistics.hpp"
-#include "sas_motion/models/towfish.hpp"
+#include "sas_motion/systems/towfish/model.hpp"
 #include "support.hpp"
 
 namespace sas_motion {

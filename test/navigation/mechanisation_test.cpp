@@ -9,7 +9,7 @@
 
 #include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
-#include "sas_motion/simulation/ins_simulator.hpp"
+#include "sas_motion/systems/ins_gps_dvl/simulator.hpp"
 
 namespace sas_motion {
 namespace {

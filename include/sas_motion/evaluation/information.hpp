@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sas_motion/simulation/noise_law.hpp"
+#include "sas_motion/noise/noise_law.hpp"
 
 namespace sas_motion {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sas_motion/filters/gaussian_sum_filter.hpp"
-#include "sas_motion/simulation/noise_law.hpp"
+#include "sas_motion/noise/noise_law.hpp"
 
 namespace sas_motion {
 

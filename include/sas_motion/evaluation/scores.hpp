@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sas_motion/math/statistics.hpp"
-#include "sas_motion/pipeline/estimator.hpp"
+#include "sas_motion/systems/towfish/estimator.hpp"
 
 namespace sas_motion::towfish {
 

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sas_motion/estimate/smoother_options.hpp"
+#include "sas_motion/systems/ins_gps_dvl/navigator.hpp"
+
+namespace sas_motion::ins {
+
+/// A smoother over a sliding window.
+struct FixedLag {
+  Loss loss{LossKind::Huber};
+  double lag = 60;            ///< the window's length [s]
+  double solve_interval = 5;  ///< between two solutions [s]
+};
+
+/// What every estimator of this system is told.
+struct Config {
+  Parameters parameters;
+  Mechanisation::Options imu;
+  SmootherOptions batch{Loss(LossKind::Huber), 100, 1e-7};
+  FixedLag fixed_lag;
+};
+
+/// Where and how the body is at a stamp.
+struct Solution {
+  Stamp stamp = 0;
+  NavigationState state;
+  bool moving = true;  ///< velocity is known
+  bool lying = true;   ///< attitude is known
+  std::optional<Matrix<9>>
+      covariance;  ///< of velocity, position and attitude errors [m/s, m, rad], where the solution has one
+  std::optional<Vector<3>> rate_body =
+      std::nullopt;  ///< of the body over the ground [rad/s], where the solution has one
+};
+
+/// The same solution of another point of the body, at a lever arm from the one it is of [m].
+Solution movedBy(const Solution& solution, const Vector<3>& lever_body);
+
+/// What an estimator has to say since it was last asked, in time order. The caller clears it.
+struct Output {
+  std::vector<Solution> solutions;  ///< at the stamps of the inertial unit
+  std::vector<Audit> audits;
+  void clear() {
+    solutions.clear();
+    audits.clear();
+  }
+};
+
+/// One estimator fed with readings as they come.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+
+  /// Begins at a stamp with what is believed there, and forgets everything before.
+  virtual void start(const NavigationState& state, Stamp stamp) = 0;
+  /// Takes one reading of a sensor that aids. Data never throws.
+  virtual void process(const Aiding& reading, Output& output) = 0;
+  /// Takes one reading of the inertial unit, and says what became of it.
+  virtual ImuVerdict process(const ImuReading& reading, Output& output) = 0;
+  /// The end of the data, or a pause: settles everything that is still open.
+  virtual void finish(Output&) {}
+  /// Why the last finish() has no answer, in plain words; empty where all is well.
+  virtual std::string failure() const { return ""; }
+  /// Another that goes on from here; null where the estimator keeps no present state.
+  virtual std::unique_ptr<Estimator> clone() const { return nullptr; }
+};
+
+/// ckf27, open_loop_ckf27, robust_ckf27, the sensors alone (ins, gps, dvl, and gps_ckf27 ... less their estimated
+/// errors), and smooth_ckf27, smooth_robust_ckf27; null for any other name.
+std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
+
+/// The names makeEstimator knows.
+const std::vector<std::string>& estimatorNames();
+
+using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string&, const Config&)>;
+
+}  // namespace sas_motion::ins

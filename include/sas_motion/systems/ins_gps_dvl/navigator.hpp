@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "sas_motion/filters/kalman_filter.hpp"
+#include "sas_motion/filters/robust_kalman_filter.hpp"
+#include "sas_motion/navigation/bridged_gap.hpp"
+#include "sas_motion/navigation/smooth_track.hpp"
+#include "sas_motion/systems/ins_gps_dvl/model.hpp"
+
+namespace sas_motion::ins {
+
+/// Fuses nothing: what each sensor says alone is what a run with it gives.
+struct Unaided {
+  Gaussian<kStates> predict(const Gaussian<kStates>& belief, const Transition<kStates>&) const { return belief; }
+  template <int M>
+  Update<Gaussian<kStates>, M> update(const Gaussian<kStates>& prior, const LinearMeasurement<kStates, M>& z) const;
+};
+
+/// What became of a reading of a sensor that aids.
+struct Audit {
+  Stamp stamp = 0;
+  Sensor sensor = Sensor::Gps;
+  Verdict verdict = Verdict::Accepted;
+  double nis = 0;
+  Vector<3> weights = Vector<3>::Ones();
+  Vector<3> innovation =
+      Vector<3>::Zero();            ///< what the INS says minus the reading, less the errors that are known of both
+  Matrix<3> S = Matrix<3>::Zero();  ///< its covariance, before any weighting
+  int iterations = 0;
+  const char* reason = "";    ///< plain words, a literal; empty where there is nothing to say
+  double effective_size = 0;  ///< of a filter's particles, where it has several
+};
+
+struct NavigatorOptions {
+  bool feedback = true;
+  double step = 0.2;  ///< longest time of one prediction of the filter [s]
+  SmoothTrack::Options smooth;
+  Mechanisation::Options imu;
+  BridgedGap bridge;
+};
+
+/// The variance by a part of a gap of the inertial unit in the model's units, see BridgedGap.
+Errors gapVariance(const BridgedGap& bridge, double gap, double part);
+
+/// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of
+/// the INS itself (feedback) or of its output (open loop). (C.4)
+///
+/// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale.
+template <class Filter>
+class Navigator {
+ public:
+  using Options = NavigatorOptions;
+
+  Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start, Stamp stamp,
+            const Options& options);
+
+  void add(const Aiding& reading) { waiting_.push_back(reading); }
+  /// Returns what became of the reading; audits() then are those of what it let be fused.
+  ImuStep add(const ImuReading& reading);
+  const std::vector<Audit>& audits() const { return audits_; }
+
+  Stamp stamp() const { return ins_.stamp(); }
+  NavigationState fused() const { return corrected(ins_.state(), belief_.mean, model_.unit()); }
+  /// Of the body over the ground; body [rad/s].
+  Vector<3> rate_body() const { return rateOverGround(ins_.state(), ins_.rate_body()); }
+  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors;
+  /// the attitude is the fused one.
+  struct Fix {
+    Stamp stamp = 0;
+    NavigationState state;
+  };
+  const std::optional<Fix>& gps() const { return gps_; }
+  NavigationState dvl() const;
+  /// For imaging: without the jumps of readings.
+  NavigationState smooth() const { return smooth_.state(); }
+  const Gaussian<kStates>& belief() const { return belief_; }  ///< errors of the INS as it stands
+  const ErrorModel& model() const { return model_; }
+
+ private:
+  void advance(const ImuReading& reading, Stamp stamp);
+  void predict();
+  void fuse(const Aiding& reading);
+  void widenForGap(double part);
+  void feedBack();
+
+  Filter filter_;
+  ErrorModel model_;
+  Options options_;
+  Mechanisation ins_;
+  Gaussian<kStates> belief_;
+  std::deque<Aiding> waiting_;
+  std::vector<Audit> audits_;
+  // Sums over the time that the filter has not predicted yet.
+  double since_ = 0;
+  double gap_ = 0;  // of the reading that is integrated, where it bridges one [s]
+  Vector<3> force_sum_ = Vector<3>::Zero(), velocity_sum_ = Vector<3>::Zero();
+  Matrix<3> C_sum_ = Matrix<3>::Zero();
+  NavigationState reckoned_;  // by the DVL, with its errors
+  SmoothTrack smooth_;
+  std::optional<Vector<3>> velocity_body_;  // of the INS, by the DVL's last reading
+  std::optional<Fix> gps_;
+};
+
+using Ckf27 = Navigator<KalmanFilter<kStates>>;
+using RobustCkf27 = Navigator<RobustKalmanFilter<kStates>>;
+
+}  // namespace sas_motion::ins

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sas_motion/filters/particles/unscented_particle_filter.hpp"
+#include "sas_motion/systems/ins_gps_dvl/estimator.hpp"
+#include "sas_motion/systems/sins_dvl/model.hpp"
+
+namespace sas_motion::sins {
+
+/// What every estimator of this system is told.
+struct Config {
+  Parameters parameters;
+  Mechanisation::Options imu;
+  UnscentedParticleOptions
+      particles;  ///< number, threads, seed; the estimator's name says the weighting and whether there is a loss
+  bool accelerometer_bias = true;  ///< 19 states; else the paper's 16
+  double longest_step = 1;         ///< of one prediction of the filter [s]
+  bool vectorised = true;          ///< square-root filters by vector instructions, where there are any
+};
+
+/// The same where an alignment found the start and the lever arms.
+Config startedAt(Config config, const ins::Parameters& found);
+
+/// Of the particles of the paper's filters, or of one filter of that kind alone.
+enum class FilterKind { Bootstrap, Unscented, SquareRoot };
+struct NamedFilter {
+  std::string name;
+  FilterKind kind;
+  Weighting weighting = Weighting::Mixture;
+  bool alone = false;   ///< one particle
+  bool robust = false;  ///< with a loss against outliers
+  bool smooth = false;  ///< for imaging: without the jumps of readings, see SmoothTrack
+};
+const std::vector<NamedFilter>& namedFilters();
+/// Null for an unknown name.
+const NamedFilter* findFilter(const std::string& name);
+
+/// pf, upf, ss_srupf, their forms, ss_srukf, ukf, and beside them the fusion by small angles, ckf27 and robust_ckf27;
+/// null for any other name. The INS is mechanised from its readings and, but for the latter, never corrected; its
+/// estimated errors are taken out of the solution. Audits hold the effective number of particles.
+std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config);
+
+/// The same sensors as the fusion by small angles is told of them.
+ins::Config inSmallAngles(const Config& config);
+
+using EstimatorFactory = std::function<std::unique_ptr<ins::Estimator>(const std::string&, const Config&)>;
+
+}  // namespace sas_motion::sins

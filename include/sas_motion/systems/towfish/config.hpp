@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "sas_motion/config/yaml_section.hpp"
+#include "sas_motion/estimate/smoother_options.hpp"
+#include "sas_motion/filters/bank_kalman_filter.hpp"
+#include "sas_motion/filters/gated_kalman_filter.hpp"
+#include "sas_motion/filters/mixture_kalman_filter.hpp"
+#include "sas_motion/filters/robust_kalman_filter.hpp"
+#include "sas_motion/filters/student_t_kalman_filter.hpp"
+#include "sas_motion/systems/towfish/model.hpp"
+#include "sas_motion/systems/towfish/start.hpp"
+
+namespace sas_motion::towfish {
+
+/// How a sensor's messages are taken.
+struct SensorOptions {
+  double sigma = 1;               ///< standard deviation where the message has none [m, rad, m/s, rad/s]
+  double floor = 0;               ///< the smallest standard deviation believed of a message [same unit]
+  bool override_message = false;  ///< use sigma whatever the message says
+  double time_offset = 0;         ///< added to the message's stamp [s]
+  bool enabled = true;
+};
+
+/// Everything that decides an estimate beside the measurements.
+struct Config {
+  MotionParameters model;
+  std::array<SensorOptions, kSensors> sensors{};  ///< by Sensor
+  StartOptions start;
+  double lag = 5;  ///< late measurements are fused at their own time up to this age [s]
+  double reset_after =
+      20;  ///< a row disbelieved for longer, with readings that agree, is believed again by robust filters [s]
+  double max_gap = 10;                       ///< a stamp further ahead of all others is not believed alone [s]
+  double input_hold = 1;                     ///< a turn rate is believed this long [s]
+  double turn_rate_limit = 30 * kRadPerDeg;  ///< a faster turn rate is invalid [rad/s]
+
+  RobustKalmanFilter<kStates>::Options robust_kf;
+  RobustKalmanFilter<kStates>::Options mckf;
+  MixtureKalmanFilter<kStates>::Options mixture_kf;
+  BankKalmanFilter<kStates>::Options bank_kf;
+  StudentTKalmanFilter<kStates>::Options student_t_kf;
+  GatedKalmanFilter<kStates>::Options gated_kf;
+  SmootherOptions rts;
+  SmootherOptions batch;
+  FixedLagOptions fixed_lag;
+  double gnc_probability = 0.99;  ///< share of good measurements inside GNC's inlier threshold [-]
+
+  Config();
+  SensorOptions& sensor(Sensor which) { return sensors[static_cast<std::size_t>(which)]; }
+  const SensorOptions& sensor(Sensor which) const { return sensors[static_cast<std::size_t>(which)]; }
+};
+
+/// Reads the sections model, sensors, start, estimators and the keys beside them. Throws ConfigError.
+void readConfig(YamlSection& yaml, Config& config);
+void readMotionParameters(YamlSection yaml, MotionParameters& parameters);
+
+}  // namespace sas_motion::towfish

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sas_motion/filters/update.hpp"
+#include "sas_motion/systems/towfish/config.hpp"
+#include "sas_motion/systems/towfish/model.hpp"
+
+namespace sas_motion::towfish {
+
+/// The state at a stamp, after everything measured at that stamp.
+struct Estimate {
+  Stamp stamp = 0;
+  Gaussian<kStates> belief;
+};
+
+/// What an estimator did with one measurement; the first `rows` rows count.
+struct Audit {
+  Stamp stamp = 0;
+  Sensor sensor = Sensor::Position;
+  int rows = 0;
+  Vector<2> innovation = Vector<2>::Zero();
+  Matrix<2> S = Matrix<2>::Zero();
+  double nis = 0;
+  Vector<2> weights = Vector<2>::Ones();
+  HypothesisWeights hypotheses{};  ///< of a filter that keeps several
+  int iterations = 0;
+  Verdict verdict = Verdict::Accepted;
+  const char* reason = "";  ///< plain words, a literal; empty where there is nothing to say
+};
+
+/// What an estimator has to say since it was last asked, in time order. The caller clears it.
+struct Output {
+  std::vector<Estimate> estimates;
+  std::vector<Audit> audits;
+  void clear() {
+    estimates.clear();
+    audits.clear();
+  }
+};
+
+/// One estimator fed with measurements as they arrive, live or from a bag.
+///
+/// What it writes to Output is settled: no measurement inside the lag can change it any more, so it depends on the
+/// measurements alone and not on the order in which they arrived. current() is the best answer at this moment.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+
+  /// Takes one measurement, of any age. Data never throws.
+  virtual void process(const Measurement& z, Output& output) = 0;
+  /// The end of the data, or a pause: settles everything that is still open.
+  virtual void finish(Output& output) = 0;
+  /// The newest estimate, or nothing before the start.
+  virtual std::optional<Estimate> current() const = 0;
+  /// The state at any stamp inside the lag or after the newest measurement, or nothing.
+  virtual std::optional<Estimate> at(Stamp stamp) const = 0;
+  /// Sets the state at a stamp: what was measured after it is fused again, what was measured before it is settled as it
+  /// was. Returns a literal that says why not, or nothing.
+  virtual const char* setState(const Estimate& state, Output& output);
+  /// Other losses, tunings and gates, for measurements that come from now on; those that came before keep theirs, also
+  /// when they are replayed. Batch smoothers keep what they started with.
+  virtual void configure(const Config&) {}
+  /// Why the last finish() has no answer, in plain words; empty where all is well.
+  virtual std::string failure() const { return ""; }
+  /// Forgets everything.
+  virtual void reset() = 0;
+};
+
+/// kf, gated_kf, robust_kf, student_t_kf, mckf, mixture_kf, bank_kf or rts, or robust_kf_LOSS (e.g. robust_kf_cauchy)
+/// for robust_kf with that loss at its customary tuning; null for any other name.
+std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
+
+/// Whether a measurement can be used at all; a literal that says why not, or nothing.
+const char* invalidity(const Measurement& z, const Config& config);
+
+/// An audit that says a measurement was not fused.
+Audit refusal(const Measurement& z, Verdict verdict, const char* reason);
+
+}  // namespace sas_motion::towfish

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "campaign/imaging_measures.hpp"
+#include "campaign/systems.hpp"
+#include "sas_motion/imaging/focus_config.hpp"
+#include "sas_motion/io/cpu_time.hpp"
+#include "systems/ins_gps_dvl/campaign.hpp"
+#include "systems/ins_gps_dvl/imaging_survey.hpp"
+
+namespace sas_motion {
+namespace {
+
+using namespace ins;
+using imaging::FocusBench;
+using imaging::FocusResult;
+
+const std::string kErrorFree = "error_free";  // truth at the stamps of the inertial unit: what lies between these costs
+
+/// What one estimator says near every aperture.
+struct Estimate {
+  std::vector<ApertureTrack> tracks;
+  std::string failure;
+  double seconds = 0;  // of CPU
+};
+
+/// Surveys whose judge is the image: what a synthetic aperture sonar sees on their lines with each estimate of its
+/// track.
+class ImagingSystem final : public System {
+ public:
+  ImagingSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make)
+      : scenarios_(readInsCampaign(campaign, folder, *this)),
+        make_(make),
+        trajectory_(scenarios_.front().track, duration) {
+    std::string file;
+    campaign.text("config", file);
+    if (file.empty()) campaign.fail("config", "is missing; name a file of settings for focus");
+    settings_ = imaging::readFocus((std::filesystem::path(folder) / file).string());
+    int windows = 4;
+    campaign.integer("windows", windows, 1, 1000);
+    apertures_ = chooseApertures(scenarios_.front(), trajectory_, settings_, skip, windows);
+    if (apertures_.empty())
+      campaign.fail("duration",
+                    fmt::format("is {} s but no aperture on a straight line is in it behind skip", duration));
+    for (const auto& name : estimators)
+      if (name != kErrorFree && !make(name, configOf(scenarios_.front())))
+        campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
+  }
+
+  std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
+    const Recording recording = simulate(scenarios_[law], trajectory_, seed);
+    const auto estimates = estimatesOf(scenarios_[law], recording);
+    std::vector<std::vector<double>> positions(estimators.size());
+    std::vector<EstimatorReport> reports(estimators.size());
+    for (std::size_t window = 0; window < apertures_.size(); ++window) {
+      FocusBench bench(settings_, apertures_[window].times, apertures_[window].truth, 1);
+      for (std::size_t i = 0; i < estimators.size(); ++i) {
+        reports[i].windows.push_back({{"start", apertures_[window].start}});
+        const auto poses = estimates[i].tracks[window].poses(settings_.sonar.altitude);
+        if (!poses) continue;
+        positions[i].push_back(imaging::horizontalError(*poses, apertures_[window].truth));
+        for (const auto& measure : imaging::imageMeasures(bench, *poses, settings_.sonar.wavelength()))
+          reports[i].windows.back().push_back(measure);
+      }
+    }
+    for (std::size_t i = 0; i < estimators.size(); ++i)
+      complete(reports[i], estimators[i], estimates[i], positions[i], recording.aiding.size());
+    return reports;
+  }
+
+  std::optional<FocusResult> images(std::size_t law, std::uint64_t seed, const std::string& folder) const override {
+    const Aperture& aperture = apertures_.front();
+    FocusResult result{
+        title + ", " + laws[law].name, settings_, imaging::targetPlaces(settings_), windowOf(aperture), {}};
+    FocusBench bench(settings_, aperture.times, aperture.truth, 1);
+    result.trajectories.push_back(focusAlong(bench, aperture.truth, folder, "truth", false));
+    const auto estimates = estimatesOf(scenarios_[law], simulate(scenarios_[law], trajectory_, seed));
+    for (std::size_t i = 0; i < estimators.size(); ++i) {
+      const auto poses = estimates[i].tracks.front().poses(settings_.sonar.altitude);
+      if (estimators[i] != kErrorFree && poses)
+        result.trajectories.push_back(focusAlong(bench, *poses, folder, estimators[i], false));
+    }
+    return result;
+  }
+
+  Named<Trace> trace(std::size_t, std::uint64_t) const override { return {}; }
+  Named<double> bound(std::size_t, const std::vector<std::uint64_t>&) const override { return {}; }
+
+ private:
+  static imaging::FocusWindow windowOf(const Aperture& aperture) {
+    const double duration = aperture.times.back(),
+                 length = (aperture.truth.back().position - aperture.truth.front().position).head<2>().norm();
+    return {aperture.start,        duration,
+            length / duration,     static_cast<double>(aperture.times.size() - 1) / duration,
+            aperture.times.size(), aperture.frame};
+  }
+
+  std::vector<Estimate> estimatesOf(const Scenario& scenario, const Recording& recording) const {
+    std::vector<Estimate> estimates;
+    for (const auto& name : estimators)
+      estimates.push_back(name == kErrorFree ? errorFree(recording) : estimate(name, scenario, recording));
+    return estimates;
+  }
+
+  std::vector<ApertureTrack> emptyTracks() const {
+    std::vector<ApertureTrack> tracks;
+    for (const auto& aperture : apertures_) tracks.emplace_back(aperture, settings_.aperture.longest_gap);
+    return tracks;
+  }
+
+  Estimate errorFree(const Recording& recording) const {
+    Estimate result{emptyTracks(), "", 0};
+    for (const auto& reading : recording.imu) {
+      const NavigationState truth = trajectory_.at(secondsBetween(0, reading.stamp)).state;
+      for (auto& track : result.tracks) track.add(reading.stamp, truth);
+    }
+    return result;
+  }
+
+  Estimate estimate(const std::string& name, const Scenario& scenario, const Recording& recording) const {
+    Estimate result{emptyTracks(), "", 0};
+    const auto estimator = make_(name, configOf(scenario));
+    const double begin = cpuSeconds();
+    Output output;
+    replay(*estimator, recording, output, [&] {
+      for (const auto& solution : output.solutions)
+        for (auto& track : result.tracks) track.add(solution.stamp, solution.state);
+      output.clear();
+    });
+    result.seconds = cpuSeconds() - begin;
+    result.failure = estimator->failure();
+    return result;
+  }
+
+  void complete(EstimatorReport& report, const std::string& name, const Estimate& estimate,
+                const std::vector<double>& positions, std::size_t readings) const {
+    report.estimator = name;
+    report.samples = positions.size();
+    report.diverged = positions.empty() || !estimate.failure.empty() ||
+                      !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
+    if (!positions.empty()) report.errors.emplace_back("position", towfish::summarize(positions));
+    report.microseconds = 1e6 * estimate.seconds / static_cast<double>(std::max<std::size_t>(1, readings));
+  }
+
+  std::vector<Scenario> scenarios_;  // by law
+  EstimatorFactory make_;
+  Trajectory trajectory_;
+  imaging::FocusSettings settings_;
+  std::vector<Aperture> apertures_;
+};
+
+}  // namespace
+
+std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string& folder,
+                                          const EstimatorFactory& make) {
+  return std::make_unique<ImagingSystem>(campaign, folder, make);
+}
+
+}  // namespace sas_motion

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/systems/sins_dvl/estimator.hpp"
+
+#include <algorithm>
+
+namespace sas_motion::sins {
+
+template <int N>
+std::unique_ptr<ins::Estimator> makeNavigator(const NamedFilter& named, const Config& config);
+extern template std::unique_ptr<ins::Estimator> makeNavigator<kPaperStates>(const NamedFilter&, const Config&);
+extern template std::unique_ptr<ins::Estimator> makeNavigator<kStates>(const NamedFilter&, const Config&);
+
+const std::vector<NamedFilter>& namedFilters() {
+  using Kind = FilterKind;
+  static const std::vector<NamedFilter> all{
+      {"pf", Kind::Bootstrap},
+      {"upf", Kind::Unscented},
+      {"ss_srupf", Kind::SquareRoot},
+      {"robust_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, true},
+      {"smooth_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, false, true},
+      {"ss_srupf_optimal", Kind::SquareRoot, Weighting::OptimalProposal},
+      {"ss_srupf_literal", Kind::SquareRoot, Weighting::Literal},
+      {"ss_srukf", Kind::SquareRoot, Weighting::Mixture, true},
+      {"ukf", Kind::Unscented, Weighting::Mixture, true}};
+  return all;
+}
+
+const NamedFilter* findFilter(const std::string& name) {
+  const auto& all = namedFilters();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const NamedFilter& filter) { return filter.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+Config startedAt(Config config, const ins::Parameters& found) {
+  Parameters& p = config.parameters;
+  p.start_position = found.start_position;
+  p.start_velocity = found.start_velocity;
+  p.start_tilt = found.start_tilt;
+  p.start_heading = found.start_heading;
+  p.dvl_lever_body = found.dvl_lever_body;
+  p.depth_lever_body = found.depth_lever_body;
+  return config;
+}
+
+std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config) {
+  if (name == "ckf27" || name == "robust_ckf27") return ins::makeEstimator(name, inSmallAngles(config));
+  const NamedFilter* found = findFilter(name);
+  if (!found) return nullptr;
+  return config.accelerometer_bias ? makeNavigator<kStates>(*found, config)
+                                   : makeNavigator<kPaperStates>(*found, config);
+}
+
+ins::Config inSmallAngles(const Config& config) {
+  ins::Config other;
+  other.parameters = inSmallAngles(config.parameters);
+  other.imu = config.imu;
+  return other;
+}
+
+}  // namespace sas_motion::sins

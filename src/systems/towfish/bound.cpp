@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "campaign/systems.hpp"
+#include "sas_motion/evaluation/information.hpp"
+
+namespace sas_motion {
+namespace {
+
+using namespace towfish;
+
+/// What the readings of each sensor tell, and the process noise.
+struct Told {
+  std::array<MeasurementInformation, kSensors> sensors;
+  ProcessInformation process;
+
+  /// Of the rows of one reading, over Gaussian ones.
+  Vector<2> factors(const LabelledMeasurement& labelled) const {
+    const double time = secondsBetween(Simulator::kStart, labelled.z.stamp);
+    const auto& sensor = sensors[static_cast<std::size_t>(labelled.z.sensor)];
+    return {sensor.of(labelled.variance[0], time), sensor.of(labelled.variance[1], time)};
+  }
+
+  /// Whether two runs are told the same.
+  bool alike(const SimulatedRun& a, const SimulatedRun& b) const {
+    return !process.genie &&
+           std::equal(a.measurements().begin(), a.measurements().end(), b.measurements().begin(),
+                      b.measurements().end(), [this](const LabelledMeasurement& x, const LabelledMeasurement& y) {
+                        return x.z.stamp == y.z.stamp && x.z.sensor == y.z.sensor && factors(x) == factors(y);
+                      });
+  }
+};
+
+Told toldOf(const Scenario& scenario) {
+  const auto& sensors = scenario.sensors;
+  return {{MeasurementInformation(sensors[0].noise), MeasurementInformation(sensors[1].noise),
+           MeasurementInformation(sensors[2].noise), MeasurementInformation(sensors[3].noise)},
+          processInformation(scenario.process, kStates, scenario.step)};
+}
+
+/// The recursion for what is told of one run, with expectations over the truths of all.
+class RunBound {
+ public:
+  RunBound(const Scenario& scenario, const Told& told, const std::vector<SimulatedRun>& runs)
+      : model_(scenario.motion), step_(scenario.step), told_(told), runs_(runs) {}
+
+  void follow(const SimulatedRun& run, Stamp from, MeanBound<kStates>& mean) const {
+    const double current = 1 / (model_.parameters().current_sigma * model_.parameters().current_sigma);
+    PosteriorBound<kStates> bound((StateVector() << 1, 1, current, current, 1, 1).finished().asDiagonal());
+    auto next = run.measurements().begin();
+    for (std::size_t k = 0; k < run.truth().size(); ++k) {
+      const Stamp stamp = Simulator::kStart + static_cast<Stamp>(k) * run.step();
+      if (k > 0) predict(bound, run, k);
+      for (; next != run.measurements().end() && next->z.stamp == stamp; ++next) update(bound, *next, k);
+      if (stamp >= from) mean.add(bound);
+    }
+  }
+
+ private:
+  void predict(PosteriorBound<kStates>& bound, const SimulatedRun& run, std::size_t k) const {
+    std::vector<Transition<kStates>> steps;
+    for (const auto& other : runs_) {
+      steps.push_back(model_.transition(other.truth()[k - 1], Input{}, step_));
+      if (told_.process.genie) steps.back().Q = toldCovariance<kStates>(steps.back().Q, run.processVariance()[k]);
+    }
+    bound.step(steps, told_.process.genie ? 1 : told_.process.factor);
+  }
+
+  void update(PosteriorBound<kStates>& bound, const LabelledMeasurement& labelled, std::size_t k) const {
+    if (labelled.z.sensor == Sensor::Position)
+      updateRows<2>(bound, labelled, k);
+    else if (rowsOf(labelled.z.sensor) == 1)
+      updateRows<1>(bound, labelled, k);
+  }
+
+  template <int M>
+  void updateRows(PosteriorBound<kStates>& bound, const LabelledMeasurement& labelled, std::size_t k) const {
+    std::vector<LinearMeasurement<kStates, M>> linear;
+    for (const auto& other : runs_)
+      model_.linearize(labelled.z, other.truth()[k], [&](const auto& one) {
+        if constexpr (std::decay_t<decltype(one)>::kRows == M) linear.push_back(one);
+      });
+    const Vector<M> factors = told_.factors(labelled).head<M>();
+    bound.measurement<M>(linear, std::vector<Vector<M>>(linear.size(), factors));
+  }
+
+  Model model_;
+  double step_;  // [s]
+  const Told& told_;
+  const std::vector<SimulatedRun>& runs_;
+};
+
+}  // namespace
+
+/// Nothing for a survey, whose truth is not drawn from the model.
+Named<double> towfishBound(const Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds) {
+  if (scenario.kind != Scenario::Kind::RandomWalk) return {};
+  const Told told = toldOf(scenario);
+  std::vector<SimulatedRun> runs;
+  runs.reserve(seeds.size());
+  for (const auto seed : seeds) runs.emplace_back(scenario, seed);
+  const bool once =
+      std::all_of(runs.begin(), runs.end(), [&](const SimulatedRun& run) { return told.alike(runs.front(), run); });
+  const RunBound bound(scenario, told, runs);
+  MeanBound<kStates> mean;
+  for (const auto& run : runs) {
+    bound.follow(run, Simulator::kStart + stampFromSeconds(skip), mean);
+    if (once) break;
+  }
+  return boundsOf<kStates>(mean, {{"position", {kNorth, kEast}},
+                                  {"heading", {kHeading}},
+                                  {"speed", {kSpeed}},
+                                  {"current", {kCurrentNorth, kCurrentEast}}});
+}
+
+}  // namespace sas_motion

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sas_motion/systems/towfish/estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sas_motion/systems/towfish/filter_by_name.hpp"
+#include "sas_motion/systems/towfish/filter_timeline.hpp"
+#include "sas_motion/systems/towfish/rts.hpp"
+#include "sas_motion/systems/towfish/smoother_recorder.hpp"
+
+namespace sas_motion::towfish {
+namespace {
+
+/// The filter of this name and type, set up by `config`.
+template <class Filter>
+Filter filterOf(const std::string& name, const Config& config) {
+  std::optional<Filter> made;
+  withFilter(name, config, [&](const auto& filter) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(filter)>, Filter>) made.emplace(filter);
+  });
+  return *made;
+}
+
+}  // namespace
+
+std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config) {
+  std::unique_ptr<Estimator> estimator;
+  withFilter(name, config, [&](const auto& filter) {
+    using Filter = std::decay_t<decltype(filter)>;
+    estimator =
+        std::make_unique<FilterTimeline<Filter>>([name](const Config& c) { return filterOf<Filter>(name, c); }, config);
+  });
+  if (estimator) return estimator;
+  if (name == "rts")
+    return std::make_unique<SmootherRecorder>(
+        config, [options = config.rts](const SmoothingProblem& problem) { return smoothRts(problem, options); });
+  return nullptr;
+}
+
+const char* Estimator::setState(const Estimate&, Output&) { return "it keeps no present state"; }
+
+const char* invalidity(const Measurement& z, const Config& config) {
+  if (z.stamp <= 0) return "no stamp";
+  if (!z.value.allFinite() || !z.lever_arm_body.allFinite()) return "not finite";
+  for (int row = 0; row < rowsOf(z.sensor); ++row)
+    if (!(z.variance(row) > 1e-30) || !(z.variance(row) < 1e12)) return "no usable covariance";
+  if (z.sensor == Sensor::Position && z.value.norm() > 1e6) return "more than 1000 km from the datum";
+  if (z.sensor == Sensor::Speed && std::abs(z.value(0)) > 100) return "faster than 100 m/s";
+  if (z.sensor == Sensor::TurnRate && std::abs(z.value(0)) > config.turn_rate_limit)
+    return "turn rate beyond its limit";
+  return nullptr;
+}
+
+Audit refusal(const Measurement& z, Verdict verdict, const char* reason) {
+  Audit audit;
+  audit.stamp = z.stamp;
+  audit.sensor = z.sensor;
+  audit.rows = rowsOf(z.sensor);
+  audit.verdict = verdict;
+  audit.reason = reason;
+  if (verdict != Verdict::Accepted) audit.weights.setZero();
+  return audit;
+}
+
+}  // namespace sas_motion::towfish

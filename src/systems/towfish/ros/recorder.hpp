@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bag/bag_output.hpp"
+#include "ros/conversions.hpp"
+#include "sas_motion/systems/towfish/simulator.hpp"
+
+namespace sas_motion {
+
+/// Turns what the simulator of a towfish gives into messages in a bag.
+class TowfishRecorder {
+ public:
+  TowfishRecorder(const towfish::Scenario& scenario, ros_side::BagOutput& bag)
+      : scenario_(scenario), bag_(bag), frame_(scenario.datum) {}
+
+  void transforms();
+  void truth(const towfish::TruthSample& truth);
+  void measurements(const std::vector<towfish::LabelledMeasurement>& measurements);
+
+ private:
+  sensor_msgs::NavSatFix fix(const towfish::Measurement& z);
+  geometry_msgs::TwistWithCovarianceStamped twist(const towfish::Measurement& z);
+  void fill(sensor_msgs::Imu& imu, const towfish::Measurement& z) const;
+
+  const towfish::Scenario& scenario_;
+  ros_side::BagOutput& bag_;
+  LocalFrame frame_;
+  ros_side::Settings settings_;
+  std::uint32_t fix_seq_ = 0, imu_seq_ = 0, twist_seq_ = 0;
+};
+
+}  // namespace sas_motion

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/serving.hpp"
+#include "sas_motion/systems/usbl/calibrator.hpp"
+#include "sas_motion/systems/usbl/observability.hpp"
+#include "systems/usbl/ros/ingest.hpp"
+
+namespace sas_motion::ros_side {
+
+/// The largest uncertainty that a calibration may have to be good enough: of three standard deviations.
+struct CalibrationTolerance {
+  double angle = 0.1 * kRadPerDeg;  ///< [rad]
+  double lever_arm = 0.1;           ///< [m]
+};
+
+/// A USBL calibration while the vessel sails: fed with GNSS, attitude, transponder and USBL messages it publishes after
+/// every ping, for each filter NAME, NAME/calibration and NAME/update, and says on /diagnostics whether the track shows
+/// every unknown and whether the answer is good enough. ~save writes what calibrate_usbl would of the same messages;
+/// ~reset begins anew.
+class CalibrationServer {
+ public:
+  /// Throws ConfigError or std::invalid_argument where a parameter is wrong.
+  CalibrationServer(const ros::NodeHandle& node, const ros::NodeHandle& own);
+
+ private:
+  struct Lane {
+    std::string name;
+    usbl::Calibrator calibrator;
+    ros::Publisher calibration, update;
+  };
+
+  void beginAnew();
+  /// Runs a message's handler, or keeps it until the transforms that it may need have had time to come.
+  void receive(const std::string& frame, std::function<void()> handler);
+  bool transformsReady();
+  void process(const usbl::Ping& ping);
+  void publish(Lane& lane, const usbl::Ping& ping, const usbl::Calibrator::Report& report);
+  bool withinTolerance(const usbl::Calibrator& calibrator) const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  bool onSave(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
+  bool onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
+
+  ros::NodeHandle node_;
+  UsblSettings settings_;
+  CalibrationTolerance tolerance_;
+  std::string output_ = "calibration.yaml";
+  double transform_wait_ = 2;  // [s, wall]
+  int most_pings_ = 50'000;    // that are kept for ~save
+  tf2_ros::Buffer transforms_;
+  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<UsblIngest> ingest_;
+  std::vector<std::string> names_;
+  std::vector<Lane> lanes_;
+  std::vector<usbl::Ping> pings_;
+  Matrix<usbl::kUnknowns> information_;  // of all pings, each where the first filter stood
+  usbl::Observability observability_;
+  std::deque<std::function<void()>> waiting_;
+  std::vector<std::string> frames_;  // of the messages that wait
+  ros::WallTime first_message_;
+  bool ready_ = false;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  std::unique_ptr<diagnostic_updater::Updater> updater_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace sas_motion::ros_side

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The sas_motion authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the tests of the pipeline share: feeding an estimator and comparing what it puts out.
+#pragma once
+
+#include "sas_motion/systems/towfish/estimator.hpp"
+#include "support.hpp"
+
+namespace sas_motion::testing {
+
+inline const std::vector<std::string>& filterNames() {
+  static const std::vector<std::string> names{"kf",   "gated_kf",   "robust_kf", "student_t_kf",
+                                              "mckf", "mixture_kf", "bank_kf",   "robust_kf_tukey"};
+  return names;
+}
+
+/// All that an estimator puts out for measurements in this order.
+inline towfish::Output feed(towfish::Estimator& estimator, const std::vector<towfish::Measurement>& measurements) {
+  towfish::Output output;
+  for (const auto& z : measurements) estimator.process(z, output);
+  estimator.finish(output);
+  return output;
+}
+
+inline towfish::Output feed(const std::string& name, const towfish::Config& config,
+                            const std::vector<towfish::Measurement>& measurements) {
+  const auto estimator = towfish::makeEstimator(name, config);
+  return feed(*estimator, measurements);
+}
+
+inline std::size_t count(const towfish::Output& output, Verdict verdict) {
+  return static_cast<std::size_t>(std::count_if(output.audits.begin(), output.audits.end(),
+                                                [&](const auto& audit) { return audit.verdict == verdict; }));
+}
+
+/// Equal to the last bit.
+inline void expectSameEstimates(const towfish::Output& a, const towfish::Output& b, const std::string& what) {
+  ASSERT_EQ(a.estimates.size(), b.estimates.size()) << what;
+  for (std::size_t i = 0; i < a.estimates.size(); ++i) {
+    ASSERT_EQ(a.estimates[i].stamp, b.estimates[i].stamp) << what << ", estimate " << i;
+    ASSERT_EQ(a.estimates[i].belief.mean, b.estimates[i].belief.mean) << what << ", estimate " << i;
+    ASSERT_EQ(a.estimates[i].belief.covariance, b.estimates[i].belief.covariance) << what << ", estimate " << i;
+  }
+}
+
+inline void expectRisingStamps(const towfish::Output& output) {
+  for (std::size_t i = 1; i < output.estimates.size(); ++i)
+    ASSERT_GT(output.estimates[i].stamp, output.estimates[i - 1].stamp) << "estimate " << i;
+}
+
+inline double positionError(const towfish::Estimate& estimate, const Run& run) {
+  return (estimate.belief.mean - run.truthAt(estimate.stamp)).head<2>().norm();
+}
+
+}  // namespace sas_motion::testing
