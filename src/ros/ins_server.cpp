@@ -110,7 +110,7 @@ void InsServer::publishNow(std::size_t index) {
   const auto& now = session_->current(index);
   if (!now || now->stamp == lane.published || !ingest_->frame() || !lane.now_rate.due(now->stamp)) return;
   lane.published = now->stamp;
-  const ins::Solution base = ofBase(*now);
+  const ins::NavigationSolution base = ofBase(*now);
   const bool with_tf = publish_tf_ && index == 0;
   if (with_tf || lane.odometry.getNumSubscribers() > 0) {
     const auto odometry = odometryOf(base, *ingest_->frame(), settings_);

@@ -35,7 +35,7 @@ class InsServer {
     std::string name;
     ros::Publisher odometry, fix, settled, update;
     OutputRate now_rate, settled_rate;
-    std::deque<ins::Solution> solutions;  // settled, of the base, that wait to be published
+    std::deque<ins::NavigationSolution> solutions;  // settled, of the base, that wait to be published
     std::deque<ins::Audit> audits;
     std::array<std::uint64_t, 5> verdicts{};
     Stamp published = 0;
@@ -55,7 +55,7 @@ class InsServer {
   void publishDatum();
   void onIdle(const ros::WallTimerEvent&);
   /// Of the base, from one of the INS.
-  ins::Solution ofBase(const ins::Solution& solution) const { return movedBy(solution, ingest_->base_lever_body()); }
+  ins::Solution ofBase(const ins::NavigationSolution& solution) const { return movedBy(solution, ingest_->base_lever_body()); }
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   static void diagnoseParticles(const Lane& lane, diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseStart(diagnostic_updater::DiagnosticStatusWrapper& status) const;

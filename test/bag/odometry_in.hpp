@@ -31,7 +31,7 @@ struct Differences {
 };
 
 inline Differences differencesBetween(const std::vector<nav_msgs::Odometry>& messages,
-                                      const std::vector<ins::Solution>& solutions, const LocalFrame& frame) {
+                                      const std::vector<ins::NavigationSolution>& solutions, const LocalFrame& frame) {
   Differences most;
   for (std::size_t i = 0; i < messages.size(); ++i) {
     const auto expected = odometryOf(solutions[i], frame, {});

@@ -16,13 +16,6 @@ void refuse(const std::vector<Reading>& readings, std::vector<Event>& events) {
 
 }  // namespace
 
-Audit refusal(const Aiding& reading, Verdict verdict, const char* reason) {
-  Audit audit{reading.stamp, reading.sensor, verdict};
-  audit.weights.setZero();
-  audit.reason = reason;
-  return audit;
-}
-
 void Alignment::take(const Reading& reading, std::vector<Event>& events) {
   if (started_) return pass(reading, events);
   gather(reading, events);

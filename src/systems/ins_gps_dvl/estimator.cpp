@@ -40,8 +40,8 @@ class NavigatorEstimator final : public Estimator {
 
 }  // namespace
 
-Solution movedBy(const Solution& solution, const Vector<3>& lever_body) {
-  Solution moved = solution;
+NavigationSolution movedBy(const NavigationSolution& solution, const Vector<3>& lever_body) {
+  NavigationSolution moved = solution;
   const Eigen::Quaterniond& q = solution.state.q_nav_body;
   const Vector<3> lever = q * lever_body,
                   swing = solution.rate_body ? Vector<3>(q * solution.rate_body->cross(lever_body)) : Vector<3>::Zero();

@@ -9,7 +9,7 @@ constexpr double kBetweenCheckpoints = 0.25;  // [s]
 constexpr double kFurthest = 1;  // beyond the newest reading of the inertial unit that a state is predicted to [s]
 
 /// Hands over a reading; the newest solution, where there is one.
-std::optional<Solution> give(Estimator& estimator, const Reading& reading, Output& output) {
+std::optional<NavigationSolution> give(Estimator& estimator, const Reading& reading, Output& output) {
   output.clear();
   if (const auto* aiding = std::get_if<Aiding>(&reading)) estimator.process(*aiding, output);
   if (const auto* inertial = std::get_if<InertialReading>(&reading)) estimator.process(inertial->imu, output);
@@ -68,7 +68,7 @@ void Head::take(const Readings& open, std::size_t place) {
   last_checkpoint_ = stamp;
 }
 
-std::optional<Solution> Head::at(const Estimator& settled, const Readings& open, Stamp stamp, double furthest) const {
+std::optional<NavigationSolution> Head::at(const Estimator& settled, const Readings& open, Stamp stamp, double furthest) const {
   if (!estimator_) return std::nullopt;
   const Checkpoint* from = nullptr;
   for (const auto& checkpoint : checkpoints_)
@@ -77,7 +77,7 @@ std::optional<Solution> Head::at(const Estimator& settled, const Readings& open,
   std::size_t next = from ? from->next : 0;
   const ImuReading* means = from ? unitOf(open[next - 1]) : nullptr;  // of the interval that the stamp is in
   Output output;
-  std::optional<Solution> solution;
+  std::optional<NavigationSolution> solution;
   for (; next < open.size() && stampOf(open[next]) <= stamp; ++next) {
     solution = give(*estimator, open[next], output);
     if (const ImuReading* unit = unitOf(open[next])) means = unit;
@@ -119,7 +119,7 @@ void LiveSession::finish() {
   for (std::size_t lane = 0; lane < heads_.size(); ++lane) update(lane, false, settled);
 }
 
-std::optional<Solution> LiveSession::at(std::size_t lane, Stamp stamp) const {
+std::optional<NavigationSolution> LiveSession::at(std::size_t lane, Stamp stamp) const {
   const auto& of = session_.lanes()[lane];
   return of.estimator ? heads_[lane].at(*of.estimator, session_.queue().open(), stamp, kFurthest) : std::nullopt;
 }

@@ -153,14 +153,14 @@ LinearMeasurement<kStates, 3> ErrorModel::gps(const NavigationState& ins, const 
                                               const Errors& mean) const {
   LinearMeasurement<kStates, 3> z;
   const Vector<3> lever = ins.q_nav_body * parameters_.gps_lever_body;
-  Vector<3> difference = positionOf(ins) - positionOf(fix);
+  Vector<3> difference = positionOf(fix) - positionOf(ins);
   difference.x() = wrapAngle(difference.x());
   z.H.setZero();
-  z.H.block<3, 3>(0, kPosition).setIdentity();
-  z.H.block<3, 3>(0, kAttitude) = kMilliradian * skew(lever);
-  z.H.block<3, 3>(0, kGpsPosition) = -Matrix<3>::Identity();
+  z.H.block<3, 3>(0, kPosition) = -Matrix<3>::Identity();
+  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * skew(lever);
+  z.H.block<3, 3>(0, kGpsPosition).setIdentity();
   z.R = parameters_.gps_white.cwiseAbs2().asDiagonal();
-  z.innovation = difference.cwiseProduct(metresPerPosition()) + lever - z.H * mean;
+  z.innovation = difference.cwiseProduct(metresPerPosition()) - lever - z.H * mean;
   return z;
 }
 
@@ -174,11 +174,11 @@ LinearMeasurement<kStates, 3> ErrorModel::dvl(const NavigationState& ins, const 
   LinearMeasurement<kStates, 3> z;
   const Matrix<3> C_body_nav = ins.q_nav_body.conjugate().toRotationMatrix();
   z.H.setZero();
-  z.H.block<3, 3>(0, kVelocity) = C_body_nav;
-  z.H.block<3, 3>(0, kAttitude) = -kMilliradian * C_body_nav * skew(ins.velocity_nav);
-  z.H.block<3, 3>(0, kDvlVelocity) = -dvlErrorByState(C_body_nav * ins.velocity_nav);
+  z.H.block<3, 3>(0, kVelocity) = -C_body_nav;
+  z.H.block<3, 3>(0, kAttitude) = kMilliradian * C_body_nav * skew(ins.velocity_nav);
+  z.H.block<3, 3>(0, kDvlVelocity) = dvlErrorByState(C_body_nav * ins.velocity_nav);
   z.R = parameters_.dvl_white.cwiseAbs2().asDiagonal();
-  z.innovation = C_body_nav * ins.velocity_nav - velocityOfIns(ins, rate_body, velocity_body) - z.H * mean;
+  z.innovation = velocityOfIns(ins, rate_body, velocity_body) - C_body_nav * ins.velocity_nav - z.H * mean;
   if (parameters_.dvl_drift) z.H.leftCols<9>() += mean(kDvlVelocity) * driftTurn() * z.H.leftCols<9>().eval();
   return z;
 }
@@ -197,10 +197,10 @@ LinearMeasurement<kStates, 1> ErrorModel::depth(const NavigationState& ins, doub
   LinearMeasurement<kStates, 1> z;
   const Vector<3> lever = ins.q_nav_body * parameters_.depth_lever_body;
   z.H.setZero();
-  z.H(0, kPosition + 2) = 1;
-  z.H.block<1, 3>(0, kAttitude) = kMilliradian * skew(lever).row(2);
+  z.H(0, kPosition + 2) = -1;
+  z.H.block<1, 3>(0, kAttitude) = -kMilliradian * skew(lever).row(2);
   z.R(0, 0) = parameters_.depth_white * parameters_.depth_white;
-  z.innovation = Vector<1>(ins.height + lever.z() - height) - z.H * mean;
+  z.innovation = Vector<1>(height - (ins.height + lever.z())) - z.H * mean;
   return z;
 }
 
@@ -211,11 +211,12 @@ LinearMeasurement<kStates, 2> ErrorModel::dpc(const NavigationState& ins, const 
   Matrix<2, 3> axes;
   axes << Vector<3>::UnitY().transpose(), array.sight_body.transpose();
   z.H.setZero();
-  z.H.block<2, 3>(0, kVelocity) = axes * C_body_nav;
-  z.H.block<2, 3>(0, kAttitude) = -kMilliradian * axes * C_body_nav * skew(ins.velocity_nav);
+  z.H.block<2, 3>(0, kVelocity) = -axes * C_body_nav;
+  z.H.block<2, 3>(0, kAttitude) = kMilliradian * axes * C_body_nav * skew(ins.velocity_nav);
   z.R = array.variance.asDiagonal();
-  z.innovation = axes * (C_body_nav * ins.velocity_nav + leverVelocity(ins, rate_body, parameters_.dpc_lever_body)) -
-                 array.velocity - z.H * mean;
+  z.innovation = array.velocity -
+                 axes * (C_body_nav * ins.velocity_nav + leverVelocity(ins, rate_body, parameters_.dpc_lever_body)) -
+                 z.H * mean;
   return z;
 }
 

@@ -12,16 +12,6 @@ namespace {
 
 bool before(const Aiding& a, const Aiding& b) { return a.stamp < b.stamp; }
 
-template <int M>
-Audit auditOf(const Aiding& reading, const Update<Gaussian<kStates>, M>& update) {
-  Audit audit{reading.stamp, reading.sensor, update.verdict, update.nis};
-  audit.weights.template head<M>() = update.weights;
-  audit.innovation.template head<M>() = update.innovation;
-  audit.S.template topLeftCorner<M, M>() = update.S;
-  audit.iterations = update.iterations;
-  return audit;
-}
-
 }  // namespace
 
 Errors gapVariance(const BridgedGap& bridge, double gap, double part) {
@@ -58,9 +48,7 @@ ImuStep Navigator<Filter>::add(const ImuReading& reading) {
   for (; !waiting_.empty() && waiting_.front().stamp <= reading.stamp; waiting_.pop_front()) {
     const Aiding& next = waiting_.front();
     if (next.stamp < ins_.stamp()) {
-      Audit stale{next.stamp, next.sensor, Verdict::Stale};
-      stale.reason = "older than the inertial unit's last reading";
-      audits_.push_back(stale);
+      audits_.push_back(refusal(next, Verdict::Stale, "older than the IMU's last reading"));
       continue;
     }
     advance(reading, next.stamp);
@@ -108,7 +96,7 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
     if (reading.variance) z.R = reading.variance->head(z.R.rows()).asDiagonal();
     const auto result = filter_.update(belief_, z);
     belief_ = result.belief;
-    audits_.push_back(auditOf(reading, result));
+    audits_.push_back(auditOf(reading.stamp, sensorName(reading.sensor), result));
   };
   switch (reading.sensor) {
     case Sensor::Gps: {

@@ -26,7 +26,7 @@ double fullSquare(const Vector<9>& error, const Matrix<9>& P) {
 
 }  // namespace
 
-void Score::add(const TruthSample& truth, const Solution& solution) {
+void Score::add(const TruthSample& truth, const NavigationSolution& solution) {
   const double time = secondsBetween(0, solution.stamp);
   Vector<9> error;
   error << solution.state.velocity_nav - truth.state.velocity_nav, displacement(truth.state, solution.state),
@@ -40,8 +40,8 @@ void Score::add(const TruthSample& truth, const Solution& solution) {
   finite_ &= position.allFinite() && velocity.allFinite();
   errors_["position"].push_back(position.head<2>().norm());
   errors_["height"].push_back(std::abs(position.z()));
-  if (solution.moving) errors_["velocity"].push_back(velocity.norm());
-  if (solution.lying) {
+  if (solution.has_velocity) errors_["velocity"].push_back(velocity.norm());
+  if (solution.has_attitude) {
     errors_["tilt"].push_back(phi.head<2>().norm());
     errors_["heading"].push_back(std::abs(phi.z()));
   }
@@ -54,7 +54,7 @@ void Score::add(const TruthSample& truth, const Solution& solution) {
   if (solution.covariance) addConsistency(time, error, *solution.covariance);
 }
 
-void Score::trace(const Solution& solution, double time, const Vector<9>& error) {
+void Score::trace(const NavigationSolution& solution, double time, const Vector<9>& error) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   const Vector<9> variance =
       solution.covariance ? Vector<9>(solution.covariance->diagonal()) : Vector<9>(Vector<9>::Constant(unknown));
@@ -63,8 +63,8 @@ void Score::trace(const Solution& solution, double time, const Vector<9>& error)
   trace_.time.push_back(time);
   trace_.error.push_back(norm(kPosition, 2));
   trace_.sigma3.push_back(3 * std::sqrt(sum(kPosition, 2)));
-  if (solution.moving) trace_.add("velocity", norm(kVelocity, 3), sum(kVelocity, 3));
-  if (solution.lying) {
+  if (solution.has_velocity) trace_.add("velocity", norm(kVelocity, 3), sum(kVelocity, 3));
+  if (solution.has_attitude) {
     trace_.add("tilt", norm(kAttitude, 2), sum(kAttitude, 2));
     trace_.add("heading", error(kAttitude + 2), variance(kAttitude + 2));
   }
@@ -85,21 +85,21 @@ void Score::addConsistency(double time, const Vector<9>& error, const Matrix<9>&
 
 void Score::add(const Audit& audit, const LabelledAiding& labelled) {
   const double time = secondsBetween(0, audit.stamp);
-  if (audit.sensor == traced_ && audit.effective_size > 0) {
+  if (labelled.reading.sensor == traced_ && audit.effective_size > 0) {
     trace_.effective_time.push_back(time);
     trace_.effective_size.push_back(audit.effective_size);
   }
   if (time < skip_ || audit.verdict == Verdict::Stale || audit.verdict == Verdict::Invalid) return;
-  nis_[static_cast<std::size_t>(audit.sensor)].push_back(audit.nis / rowsOf(audit.sensor));
+  nis_[static_cast<std::size_t>(labelled.reading.sensor)].push_back(audit.nis / audit.rows);
   bool outlier = false;
-  for (int row = 0; row < rowsOf(audit.sensor); ++row) {
+  for (int row = 0; row < audit.rows; ++row) {
     const bool label = labelled.outlier[static_cast<std::size_t>(row)], flag = audit.weights(row) < kDownWeighted;
     detection_.labelled += label;
     detection_.flagged += flag;
     detection_.hits += label && flag;
     outlier |= label;
   }
-  if (audit.sensor != traced_) return;
+  if (labelled.reading.sensor != traced_) return;
   trace_.weight_time.push_back(time);
   trace_.weight.push_back(audit.weights.minCoeff());
   trace_.outlier.push_back(outlier);

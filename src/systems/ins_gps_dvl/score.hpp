@@ -21,7 +21,7 @@ class Score {
     trace_.nis_degrees = rowsOf(traced);
   }
 
-  void add(const TruthSample& truth, const Solution& solution);
+  void add(const TruthSample& truth, const NavigationSolution& solution);
   void add(const Audit& audit, const LabelledAiding& labelled);
 
   EstimatorReport report(const std::string& name) const;
@@ -29,7 +29,7 @@ class Score {
 
  private:
   /// `error` and `P` are of velocity, position and attitude [m/s, m, rad].
-  void trace(const Solution& solution, double time, const Vector<9>& error);
+  void trace(const NavigationSolution& solution, double time, const Vector<9>& error);
   void addConsistency(double time, const Vector<9>& error, const Matrix<9>& P);
 
   const Scenario& scenario_;

@@ -41,8 +41,8 @@ const NamedSolution* findSolution(const std::string& name) {
 }
 
 template <class Filter>
-std::optional<Solution> solutionOf(const Navigator<Filter>& navigator, Source source) {
-  Solution solution;
+std::optional<NavigationSolution> solutionOf(const Navigator<Filter>& navigator, Source source) {
+  NavigationSolution solution;
   solution.stamp = navigator.stamp();
   solution.rate_body = navigator.rate_body();
   switch (source) {
@@ -53,20 +53,20 @@ std::optional<Solution> solutionOf(const Navigator<Filter>& navigator, Source so
       break;
     case Source::Dvl:
       solution.state = navigator.dvl();
-      solution.lying = false;
+      solution.has_attitude = false;
       break;
     case Source::Smooth: solution.state = navigator.smooth(); break;
     case Source::Gps:
       if (!navigator.gps() || navigator.gps()->stamp != solution.stamp) return std::nullopt;
       solution.state = navigator.gps()->state;
-      solution.moving = solution.lying = false;
+      solution.has_velocity = solution.has_attitude = false;
       solution.rate_body.reset();
   }
   return solution;
 }
 
-template std::optional<Solution> solutionOf(const Navigator<KalmanFilter<kStates>>&, Source);
-template std::optional<Solution> solutionOf(const Navigator<RobustKalmanFilter<kStates>>&, Source);
-template std::optional<Solution> solutionOf(const Navigator<Unaided>&, Source);
+template std::optional<NavigationSolution> solutionOf(const Navigator<KalmanFilter<kStates>>&, Source);
+template std::optional<NavigationSolution> solutionOf(const Navigator<RobustKalmanFilter<kStates>>&, Source);
+template std::optional<NavigationSolution> solutionOf(const Navigator<Unaided>&, Source);
 
 }  // namespace sas_motion::ins

@@ -73,12 +73,12 @@ class Follower {
   const Trace& trace() const { return score_.trace(); }
 
  private:
-  void note(ins::Audit audit, const ins::LabelledAiding& labelled) {
+  void note(Audit audit, const ins::LabelledAiding& labelled) {
     if (alone_) audit.effective_size = 0;
     score_.add(audit, labelled);
   }
 
-  void note(const ins::Solution& solution) {
+  void note(const ins::NavigationSolution& solution) {
     const double time = secondsBetween(0, solution.stamp), ticks = time / kScoreEvery;
     if (std::abs(ticks - std::round(ticks)) > 1e-6) return;
     const ins::TruthSample truth = trajectory_.at(time);

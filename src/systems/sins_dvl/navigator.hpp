@@ -65,7 +65,7 @@ class Navigator final : public ins::Estimator {
       const Together group = takeGroup();
       if (group.stamp < ins_->stamp()) {
         for (const auto& one : group.readings)
-          output.audits.push_back(ins::refusal(one, Verdict::Stale, "older than the inertial unit's last reading"));
+          output.audits.push_back(ins::refusal(one, Verdict::Stale, "older than the IMU's last reading"));
         continue;
       }
       advance(reading, group.stamp, gap);
@@ -188,9 +188,9 @@ class Navigator final : public ins::Estimator {
 
   static bool fuses(ins::Sensor sensor) { return sensor == ins::Sensor::Dvl || sensor == ins::Sensor::Depth; }
 
-  ins::Audit auditOf(const ins::Aiding& reading, const ParticleUpdate<4>& update) const {
-    ins::Audit audit{reading.stamp, reading.sensor, update.verdict};
+  Audit auditOf(const ins::Aiding& reading, const ParticleUpdate<4>& update) const {
     const int rows = rowsOf(reading.sensor), first = reading.sensor == ins::Sensor::Dvl ? 0 : 3;
+    Audit audit{reading.stamp, sensorName(reading.sensor), rows, update.verdict};
     audit.innovation.head(rows) = update.innovation.segment(first, rows);
     audit.S.topLeftCorner(rows, rows) = update.S.block(first, first, rows, rows);
     const bool readable = update.innovation.allFinite() && update.S.allFinite();

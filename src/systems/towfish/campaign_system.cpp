@@ -37,7 +37,7 @@ class RunScore {
   RunScore(const SimulatedRun& run, Stamp from) : run_(run), from_(from) {}
 
   void take(const Output& output) {
-    for (const auto& estimate : output.estimates) {
+    for (const auto& estimate : output.solutions) {
       if (estimate.stamp < from_) continue;
       const Reference truth = run_.at(estimate.stamp);
       scorer_.add(estimate, truth);
@@ -80,7 +80,7 @@ class RunScore {
 
 /// Takes what is to be plotted of one part of a run, without the start.
 void record(const SimulatedRun& run, Stamp from, const Output& output, Trace& trace) {
-  for (const auto& estimate : output.estimates) {
+  for (const auto& estimate : output.solutions) {
     if (estimate.stamp < from) continue;
     const Reference truth = run.at(estimate.stamp);
     trace.time.push_back(secondsBetween(Simulator::kStart, estimate.stamp));
@@ -95,7 +95,7 @@ void record(const SimulatedRun& run, Stamp from, const Output& output, Trace& tr
     trace.nees.push_back(normalisedSquare(estimate, truth));
   }
   for (const auto& audit : output.audits) {
-    if (audit.sensor != Sensor::Position || audit.stamp < from) continue;
+    if (audit.sensor != sensorName(Sensor::Position) || audit.stamp < from) continue;
     trace.weight_time.push_back(secondsBetween(Simulator::kStart, audit.stamp));
     trace.weight.push_back(audit.weights.minCoeff());
     trace.outlier.push_back(run.outlier(audit));

@@ -54,14 +54,7 @@ const char* invalidity(const Measurement& z, const Config& config) {
 }
 
 Audit refusal(const Measurement& z, Verdict verdict, const char* reason) {
-  Audit audit;
-  audit.stamp = z.stamp;
-  audit.sensor = z.sensor;
-  audit.rows = rowsOf(z.sensor);
-  audit.verdict = verdict;
-  audit.reason = reason;
-  if (verdict != Verdict::Accepted) audit.weights.setZero();
-  return audit;
+  return sas_motion::refusal(z.stamp, sensorName(z.sensor), rowsOf(z.sensor), verdict, reason);
 }
 
 }  // namespace sas_motion::towfish

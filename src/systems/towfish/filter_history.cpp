@@ -7,29 +7,6 @@
 #include "systems/towfish/instantiate.hpp"
 
 namespace sas_motion::towfish {
-namespace {
-
-template <class Belief, int M>
-Audit auditOf(const Measurement& z, const Update<Belief, M>& update) {
-  Audit audit;
-  audit.stamp = z.stamp;
-  audit.sensor = z.sensor;
-  audit.rows = M;
-  audit.innovation.template head<M>() = update.innovation;
-  audit.S.template topLeftCorner<M, M>() = update.S;
-  audit.nis = update.nis;
-  audit.weights.template head<M>() = update.weights;
-  audit.iterations = update.iterations;
-  audit.verdict = update.verdict;
-  audit.hypotheses = hypothesisWeights(update.belief);
-  if (update.verdict == Verdict::Invalid) audit.reason = "numerically singular";
-  if (update.verdict == Verdict::Rejected) audit.reason = "outside the gate";
-  if (update.verdict == Verdict::DownWeighted) audit.reason = "residual too large for its noise";
-  return audit;
-}
-
-}  // namespace
-
 template <class Filter>
 void FilterHistory<Filter>::use(std::shared_ptr<const Filter> filter, double input_hold) {
   filter_ = std::move(filter);
@@ -83,7 +60,7 @@ void FilterHistory<Filter>::fuse(const typename Filter::Belief& prior, const Hel
   }
   model_.linearize(z, gaussian(prior).mean, [&](const auto& linear) {
     const auto update = entry.filter->update(prior, linear);
-    entry.audit = auditOf(z, update);
+    entry.audit = auditOf(z.stamp, sensorName(z.sensor), update);
     entry.after.emplace(z.stamp, update.belief, input);
   });
 }

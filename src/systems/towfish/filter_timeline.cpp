@@ -101,7 +101,7 @@ void FilterTimeline<Filter>::settle(Stamp until, Output& output) {
     const Entry& entry = entries[count];
     const bool last_of_stamp = count + 1 == entries.size() || entries[count + 1].z.stamp != entry.z.stamp;
     if (entry.audit.rows > 0) output.audits.push_back(entry.audit);
-    if (last_of_stamp) output.estimates.push_back({entry.z.stamp, gaussian(entry.after->belief)});
+    if (last_of_stamp) output.solutions.push_back({entry.z.stamp, gaussian(entry.after->belief)});
     settled_ = entry.z.stamp;
     start_settled_ = true;
   }

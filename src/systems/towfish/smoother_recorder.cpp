@@ -27,7 +27,7 @@ Audit smoothedAudit(const Measurement& z, const StateVector& x, const Model& mod
   Audit audit = refusal(z, Verdict::Accepted, "");
   model.linearize(z, x,
                   [&](const auto& linear) { audit.innovation.head(linear.innovation.rows()) = linear.innovation; });
-  audit.weights = weights;
+  audit.weights.head<2>() = weights;
   audit.iterations = iterations;
   if (weights.head(audit.rows).minCoeff() < kDownWeighted) {
     audit.verdict = Verdict::DownWeighted;
@@ -75,7 +75,7 @@ void SmootherRecorder::solve(Output& output) {
   if (!result.failure.empty())
     refuse({start, measurements_.end()}, Verdict::Invalid, "the smoother found no solution", output);
   for (std::size_t k = 0; result.failure.empty() && k < problem->nodes(); ++k) {
-    output.estimates.push_back({problem->stamps[k], result.states[k]});
+    output.solutions.push_back({problem->stamps[k], result.states[k]});
     for (std::size_t j = problem->first[k]; j < problem->first[k + 1]; ++j)
       output.audits.push_back(smoothedAudit(problem->measurements[j], result.states[k].mean, problem->model,
                                             result.weights[j], result.iterations));

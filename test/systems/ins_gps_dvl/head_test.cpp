@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing;
 
-bool same(const Solution& a, const Solution& b) {
+bool same(const NavigationSolution& a, const NavigationSolution& b) {
   return a.stamp == b.stamp && a.state.latitude == b.state.latitude && a.state.longitude == b.state.longitude &&
          a.state.height == b.state.height && a.state.velocity_nav == b.state.velocity_nav &&
          a.state.q_nav_body.coeffs() == b.state.q_nav_body.coeffs() && *a.covariance == *b.covariance;
@@ -31,7 +31,7 @@ TEST(InsHead, ThePresentIsWhatSettlesLater) {
   const Scenario scenario = surveyOf(40);
   const auto stream = streamOf(scenario, 1);
   LiveSession live(optionsOf(scenario), {"ckf27"}, makeEstimator);
-  std::vector<Solution> present;
+  std::vector<NavigationSolution> present;
   for (const auto& reading : stream) {
     live.process(reading);
     if (isInertial(reading) && live.current(0) && live.current(0)->stamp == stampOf(reading))
@@ -90,13 +90,13 @@ TEST(InsHead, StatesAtItsStampsAreItsSolutionsAndThoseOutsideAreNone) {
   const Scenario scenario = surveyOf(40);
   const auto stream = until(streamOf(scenario, 1), 35);
   LiveSession live(optionsOf(scenario), {"ckf27"}, makeEstimator);
-  std::vector<Solution> present;
+  std::vector<NavigationSolution> present;
   for (const auto& reading : stream) {
     live.process(reading);
     if (isInertial(reading) && live.current(0)) present.push_back(*live.current(0));
   }
   for (std::size_t i = 1; i < 190; i += 7) {
-    const Solution& asked = present[present.size() - i];
+    const NavigationSolution& asked = present[present.size() - i];
     const auto answer = live.at(0, asked.stamp);
     ASSERT_TRUE(answer);
     EXPECT_TRUE(same(*answer, asked)) << i;

@@ -145,7 +145,7 @@ TEST(InsNavigator, TakesReadingsBetweenThoseOfTheInertialUnit) {
   run(navigator, recording, [&](const auto& n) {
     for (const auto& audit : n.audits()) {
       EXPECT_EQ(audit.verdict, Verdict::Accepted);
-      nis += audit.nis / rowsOf(audit.sensor);
+      nis += audit.nis / audit.rows;
       ++audits;
     }
   });

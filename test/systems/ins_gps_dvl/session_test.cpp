@@ -31,7 +31,7 @@ void expectSame(const Output& a, const Output& b) {
   for (std::size_t i = 0; i < a.audits.size(); ++i) ASSERT_EQ(a.audits[i].nis, b.audits[i].nis) << i;
 }
 
-double positionError(const Scenario& scenario, const Solution& solution) {
+double positionError(const Scenario& scenario, const NavigationSolution& solution) {
   const TruthSample truth = Trajectory(scenario.track, scenario.duration).at(secondsBetween(kEpoch, solution.stamp));
   return displacement(truth.state, solution.state).norm();
 }
@@ -68,7 +68,7 @@ TEST(InsSession, TheStartIsConsistentOverManyRuns) {
   double position = 0, velocity = 0, attitude = 0;
   constexpr int kRuns = 60;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
-    const Solution last = settled(streamOf(scenario, seed), optionsOf(scenario)).solutions.back();
+    const NavigationSolution last = settled(streamOf(scenario, seed), optionsOf(scenario)).solutions.back();
     const TruthSample truth = Trajectory(scenario.track, scenario.duration).at(secondsBetween(kEpoch, last.stamp));
     const auto nees = [&](const Vector<3>& error, int first) {
       return error.dot(last.covariance->block<3, 3>(first, first).llt().solve(error)) / kRuns;
@@ -266,13 +266,13 @@ TEST(InsSession, OneWrongStampChangesLittleAndAClockThatIsSetStartsAnew) {
           reading);
     }
     const Output output = settled(set, optionsOf(scenario));
-    const auto first = std::find_if(output.solutions.begin(), output.solutions.end(), [&](const Solution& s) {
+    const auto first = std::find_if(output.solutions.begin(), output.solutions.end(), [&](const NavigationSolution& s) {
       return std::abs(s.stamp - kEpoch) > jump / 2 + std::abs(jump) / 4 &&
              std::abs(s.stamp - kEpoch) > 1000 * kNanosecondsPerSecond;
     });
     ASSERT_NE(first, output.solutions.end());
     EXPECT_LT(secondsBetween(kEpoch + 30 * kNanosecondsPerSecond + jump, first->stamp), 5);
-    Solution last = output.solutions.back();
+    NavigationSolution last = output.solutions.back();
     last.stamp -= jump;
     EXPECT_LT(positionError(scenario, last), 12);
   }

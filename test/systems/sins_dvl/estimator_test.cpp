@@ -20,8 +20,8 @@ Scenario scenarioOf(const std::string& name, double duration) {
 }
 
 struct Outcome {
-  std::vector<ins::Solution> solutions;
-  std::vector<ins::Audit> audits;
+  std::vector<ins::NavigationSolution> solutions;
+  std::vector<Audit> audits;
   Vector<3> position_error, attitude_error;  // at the end
 };
 

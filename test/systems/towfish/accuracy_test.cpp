@@ -22,7 +22,7 @@ TEST(Accuracy, NormalisedErrorsOfTheKalmanFilterLieInTheirBands) {
     for (int seed = 1; seed <= runs; ++seed) {
       const auto run = testing::simulate(scenario, static_cast<std::uint64_t>(seed));
       const Estimate last =
-          testing::feed(name, config, run.measurements).estimates.back();  // one sample a run: independent
+          testing::feed(name, config, run.measurements).solutions.back();  // one sample a run: independent
       const StateVector error = Model::difference(last.belief.mean, run.truthAt(last.stamp));
       full += error.dot(last.belief.covariance.llt().solve(error)) / runs;
       for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -71,8 +71,8 @@ TEST(Clock, TheFirstStampMayBeTheWrongOne) {
     auto measurements = run.measurements;
     measurements.front().stamp += stampFromSeconds(wrong);
     const auto output = feed("mixture_kf", testing::configFor(scenario), measurements);
-    ASSERT_GT(output.estimates.size(), 500u) << wrong;
-    EXPECT_LT(testing::positionError(output.estimates.back(), run), 4) << wrong;
+    ASSERT_GT(output.solutions.size(), 500u) << wrong;
+    EXPECT_LT(testing::positionError(output.solutions.back(), run), 4) << wrong;
   }
 }
 
@@ -100,7 +100,7 @@ TEST(Clock, OrderWithinTheLagDoesNotMatterAfterALongGapEither) {
     if (secondsIn(z) > 30) z.stamp += stampFromSeconds(600);
   Random random = testing::announced(203);
   const auto in_order = feed("robust_kf", config, measurements);
-  ASSERT_GT(in_order.estimates.size(), 1000u);
+  ASSERT_GT(in_order.solutions.size(), 1000u);
   for (int i = 0; i < 5; ++i) {
     std::vector<std::pair<Stamp, Measurement>> arrivals;
     for (const auto& z : measurements) arrivals.emplace_back(z.stamp + stampFromSeconds(4.9 * random.uniform()), z);

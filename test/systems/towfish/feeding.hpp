@@ -36,17 +36,17 @@ inline std::size_t count(const towfish::Output& output, Verdict verdict) {
 
 /// Equal to the last bit.
 inline void expectSameEstimates(const towfish::Output& a, const towfish::Output& b, const std::string& what) {
-  ASSERT_EQ(a.estimates.size(), b.estimates.size()) << what;
-  for (std::size_t i = 0; i < a.estimates.size(); ++i) {
-    ASSERT_EQ(a.estimates[i].stamp, b.estimates[i].stamp) << what << ", estimate " << i;
-    ASSERT_EQ(a.estimates[i].belief.mean, b.estimates[i].belief.mean) << what << ", estimate " << i;
-    ASSERT_EQ(a.estimates[i].belief.covariance, b.estimates[i].belief.covariance) << what << ", estimate " << i;
+  ASSERT_EQ(a.solutions.size(), b.solutions.size()) << what;
+  for (std::size_t i = 0; i < a.solutions.size(); ++i) {
+    ASSERT_EQ(a.solutions[i].stamp, b.solutions[i].stamp) << what << ", estimate " << i;
+    ASSERT_EQ(a.solutions[i].belief.mean, b.solutions[i].belief.mean) << what << ", estimate " << i;
+    ASSERT_EQ(a.solutions[i].belief.covariance, b.solutions[i].belief.covariance) << what << ", estimate " << i;
   }
 }
 
 inline void expectRisingStamps(const towfish::Output& output) {
-  for (std::size_t i = 1; i < output.estimates.size(); ++i)
-    ASSERT_GT(output.estimates[i].stamp, output.estimates[i - 1].stamp) << "estimate " << i;
+  for (std::size_t i = 1; i < output.solutions.size(); ++i)
+    ASSERT_GT(output.solutions[i].stamp, output.solutions[i - 1].stamp) << "estimate " << i;
 }
 
 inline double positionError(const towfish::Estimate& estimate, const Run& run) {

@@ -45,8 +45,8 @@ TEST_P(Control, ASetStateIsTheStateAtItsStampAndWhatCameLaterIsFusedOnIt) {
   }
   estimator->finish(output);
   testing::expectRisingStamps(output);
-  for (std::size_t i = 0; output.estimates[i].stamp < kWhen; ++i)
-    ASSERT_EQ(output.estimates[i].belief.mean, expected.estimates[i].belief.mean);
+  for (std::size_t i = 0; output.solutions[i].stamp < kWhen; ++i)
+    ASSERT_EQ(output.solutions[i].belief.mean, expected.solutions[i].belief.mean);
 }
 
 TEST_P(Control, ASetStateReplacesTheStart) {
@@ -109,9 +109,9 @@ TEST(Control, OtherSettingsCountFromTheNextMeasurementOnAndNotInAReplay) {
   estimator->finish(output);
   ASSERT_GT(compared, 100u);
   bool differs = false;
-  for (std::size_t i = 0; i < output.estimates.size(); ++i) {
-    const bool same = output.estimates[i].belief.mean == expected.estimates[i].belief.mean;
-    ASSERT_TRUE(same || output.estimates[i].stamp >= late.stamp) << i;
+  for (std::size_t i = 0; i < output.solutions.size(); ++i) {
+    const bool same = output.solutions[i].belief.mean == expected.solutions[i].belief.mean;
+    ASSERT_TRUE(same || output.solutions[i].stamp >= late.stamp) << i;
     differs = differs || !same;
   }
   EXPECT_TRUE(differs);

@@ -67,8 +67,8 @@ TEST_P(Faults, OutrageousCovariancesAndGapsDoNotBreakIt) {
     if (i > measurements.size() / 2) measurements[i].stamp += 86'400 * kNanosecondsPerSecond;  // a day without data
   }
   const auto output = feed(GetParam(), testing::configFor(scenario), measurements);
-  ASSERT_GT(output.estimates.size(), 500u);
-  for (const auto& estimate : output.estimates) {
+  ASSERT_GT(output.solutions.size(), 500u);
+  for (const auto& estimate : output.solutions) {
     ASSERT_TRUE(estimate.belief.mean.allFinite());
     ASSERT_TRUE(estimate.belief.covariance.allFinite());
     ASSERT_GE(estimate.belief.covariance.diagonal().minCoeff(), 0);
@@ -85,8 +85,8 @@ TEST_P(Faults, WhenTheClockIsSetBackItStartsAgain) {
   for (auto& z : again) z.stamp -= back;
   const auto output = feed(*estimator, again);
   EXPECT_EQ(testing::count(output, Verdict::Stale), 0u);
-  ASSERT_GT(output.estimates.size(), 1000u);
-  auto last = output.estimates.back();
+  ASSERT_GT(output.solutions.size(), 1000u);
+  auto last = output.solutions.back();
   EXPECT_EQ(last.stamp, again.back().stamp);
   last.stamp += back;
   EXPECT_LT(testing::positionError(last, run), 3);
@@ -99,7 +99,7 @@ TEST_P(Faults, OneStampFarInTheFutureDoesNotStopIt) {
   measurements[measurements.size() / 2].stamp += 1'000'000 * kNanosecondsPerSecond;
   const auto output = feed(GetParam(), testing::configFor(scenario), measurements);
   std::size_t after = 0;
-  for (const auto& estimate : output.estimates) {
+  for (const auto& estimate : output.solutions) {
     if (estimate.stamp > run.truth.back().stamp) continue;  // the one at the wrong stamp
     after += secondsBetween(Simulator::kStart, estimate.stamp) > 35;
     ASSERT_LT(testing::positionError(estimate, run), 5) << secondsBetween(Simulator::kStart, estimate.stamp);
@@ -125,7 +125,7 @@ TEST(Faults, WithoutAPositionOrAHeadingItStaysSilentAndSaysWhy) {
     scenario.sensor(missing).rate = 0;
     const auto measurements = testing::simulate(scenario, 7).measurements;
     const auto output = feed("kf", testing::configFor(scenario), measurements);
-    EXPECT_TRUE(output.estimates.empty());
+    EXPECT_TRUE(output.solutions.empty());
     EXPECT_EQ(testing::count(output, Verdict::Stale), measurements.size());
     EXPECT_STREQ(output.audits.front().reason, "before the first position and heading");
   }

@@ -37,7 +37,7 @@ TEST_P(Order, LateAndRepeatedMeasurementsChangeNothing) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto measurements = testing::simulate(scenario, seed).measurements;
     const auto in_order = feed(GetParam(), config, measurements);
-    ASSERT_GT(in_order.estimates.size(), 300u);
+    ASSERT_GT(in_order.solutions.size(), 300u);
     for (const double longest : {0.05, 1.0, 4.9}) {
       const auto late = feed(GetParam(), config, shuffled(measurements, longest, 0.1, random));
       EXPECT_EQ(testing::count(late, Verdict::Stale), 0u);
@@ -56,7 +56,7 @@ TEST(Order, TheLateStartOfASensorDoesNotMatterEither) {
                                     [&](const auto& z) { return z.sensor == Sensor::Position && z.stamp < fix; }),
                      measurements.end());
   const auto in_order = feed("robust_kf", config, measurements);
-  ASSERT_GT(in_order.estimates.size(), 200u);
+  ASSERT_GT(in_order.solutions.size(), 200u);
   Random random = testing::announced(202);
   for (int i = 0; i < 5; ++i)
     testing::expectSameEstimates(in_order, feed("robust_kf", config, shuffled(measurements, 4.9, 0.1, random)),

@@ -56,7 +56,7 @@ TEST(FilterTimeline, SaysNothingBeforeItStarts) {
   Output output;
   estimator->process(reading(Sensor::Position, 0, {0, 0}, 1), output);
   EXPECT_FALSE(estimator->current());
-  EXPECT_TRUE(output.estimates.empty());
+  EXPECT_TRUE(output.solutions.empty());
 }
 
 TEST(FilterTimeline, ATurnRateIsBelievedForItsHoldTimeOnly) {
@@ -111,7 +111,7 @@ TEST(FilterTimeline, EstimatorsAreMadeByName) {
 /// The worst position error over a stretch of time.
 double worstError(const Output& output, const testing::Run& run, double from, double until) {
   double worst = 0;
-  for (const auto& estimate : output.estimates) {
+  for (const auto& estimate : output.solutions) {
     const double t = secondsBetween(Simulator::kStart, estimate.stamp);
     if (t >= from && t <= until) worst = std::max(worst, testing::positionError(estimate, run));
   }
@@ -146,7 +146,7 @@ TEST(Scenario, GnssMovesForGoodAndIsBelievedInTheEnd) {
   // THEN every filter comes over within its reset time and some more, and is not thrown off by it
   for (const auto& name : testing::filterNames()) {
     auto output = testing::feed(name, testing::configFor(scenario), run.measurements);
-    for (auto& estimate : output.estimates)
+    for (auto& estimate : output.solutions)
       if (secondsBetween(Simulator::kStart, estimate.stamp) >= 100) estimate.belief.mean(kEast) -= 500;
     EXPECT_LT(worstError(output, run, name == "kf" ? 195 : 130, 200), 15)
         << name;  // the plain filter's current takes a while
@@ -167,7 +167,7 @@ TEST(Scenario, GnssIsLostForAMinuteAndTheEstimateKnowsIt) {
   // THEN the error grows no faster than the reported uncertainty, and the next fixes mend it
   for (const auto& name : testing::filterNames()) {
     const auto output = testing::feed(name, testing::configFor(scenario), run.measurements);
-    for (const auto& estimate : output.estimates) {
+    for (const auto& estimate : output.solutions) {
       const double t = secondsBetween(Simulator::kStart, estimate.stamp);
       if (t < 20 || t > 170) continue;
       const Matrix<2> P = estimate.belief.covariance.topLeftCorner<2, 2>();

@@ -65,7 +65,7 @@ TEST(Oracle, TakesEachStepOfTheProcessWhereReadingsAreSecondsApart) {
     const SimulatedRun run(scenario, seed);
     for (const std::string name : {"kf", kOracle})
       estimate(campaign, scenario, run, name, makeEstimator, [&](const Output& output) {
-        for (const auto& told : output.estimates) {
+        for (const auto& told : output.solutions) {
           if (told.stamp < Simulator::kStart + 20 * kNanosecondsPerSecond) continue;
           squares[name] += (told.belief.mean - run.at(told.stamp).state).head<2>().squaredNorm();
           normalised[name] += normalisedSquare(told, run.at(told.stamp)) / kStates;
@@ -107,7 +107,7 @@ TEST(Estimate, HandsOverARunInPartsThatMakeItUp) {
   Output joined;
   int parts = 0;
   const double seconds = estimate(campaign, scenario, run, "kf", makeEstimator, [&](const Output& part) {
-    joined.estimates.insert(joined.estimates.end(), part.estimates.begin(), part.estimates.end());
+    joined.solutions.insert(joined.solutions.end(), part.solutions.begin(), part.solutions.end());
     joined.audits.insert(joined.audits.end(), part.audits.begin(), part.audits.end());
     ++parts;
   });

@@ -44,12 +44,12 @@ TEST(SmootherRecorder, BrokenMeasurementsAreCountedAndLeftOut) {
 
 TEST(SmootherRecorder, SaysWhyItCouldNotStart) {
   auto empty = recorder({});
-  EXPECT_TRUE(testing::feed(empty, {}).estimates.empty());
+  EXPECT_TRUE(testing::feed(empty, {}).solutions.empty());
   EXPECT_NE(empty.summary().failure, "");
   Measurement z;
   z.stamp = 1;
   auto single = recorder({});
-  EXPECT_TRUE(testing::feed(single, {z}).estimates.empty());
+  EXPECT_TRUE(testing::feed(single, {z}).solutions.empty());
   EXPECT_EQ(single.summary().failure, "no position and heading to start from");
 }
 
@@ -95,7 +95,7 @@ TEST(SmootherRecorder, WithoutASolutionEveryMeasurementIsRefused) {
     return result;
   });
   const auto output = testing::feed(broken, measurements);
-  EXPECT_TRUE(output.estimates.empty());
+  EXPECT_TRUE(output.solutions.empty());
   EXPECT_EQ(broken.failure(), "broken");
   EXPECT_EQ(reasons(output, Verdict::Invalid),
             std::vector<std::string>(measurements.size(), "the smoother found no solution"));
@@ -111,10 +111,10 @@ TEST(SmootherRecorder, FinishingTwiceSaysNothingTwice) {
   const auto scenario = testing::zhu2007(20);
   const auto measurements = testing::simulate(scenario, 6).measurements;
   auto smoother = recorder(testing::configFor(scenario));
-  EXPECT_FALSE(testing::feed(smoother, measurements).estimates.empty());
+  EXPECT_FALSE(testing::feed(smoother, measurements).solutions.empty());
   EXPECT_EQ(smoother.failure(), "");
   const auto again = testing::feed(smoother, {});
-  EXPECT_TRUE(again.estimates.empty());
+  EXPECT_TRUE(again.solutions.empty());
   EXPECT_TRUE(again.audits.empty());
   EXPECT_EQ(smoother.failure(), "nothing new since the last solution");
 }
@@ -141,7 +141,7 @@ TEST(SmootherRecorder, AuditsCarryTheSmoothedResidualsAndWeights) {
   std::size_t flagged_outliers = 0, outliers = 0, flagged_good = 0;
   for (std::size_t i = 0; i < output.audits.size(); ++i) {
     ASSERT_EQ(output.audits[i].stamp, run.labelled[i].z.stamp);
-    ASSERT_EQ(output.audits[i].sensor, run.labelled[i].z.sensor);
+    ASSERT_EQ(output.audits[i].sensor, sensorName(run.labelled[i].z.sensor));
     const bool outlier = run.labelled[i].outlier[0] || run.labelled[i].outlier[1];
     const bool flagged = output.audits[i].verdict == Verdict::DownWeighted;
     outliers += outlier;

@@ -21,9 +21,6 @@ struct Start {
 /// What estimators are fed with, in time order. An audit is the word on a reading that none of them gets.
 using Event = std::variant<Start, Aiding, ImuReading, Audit>;
 
-/// An audit that says a reading was not fused.
-Audit refusal(const Aiding& reading, Verdict verdict, const char* reason);
-
 struct AlignmentOptions {
   double max_age = 1;         ///< of attitude and velocity when a fix comes [s]
   double velocity_wait = 10;  ///< for the velocity; then the body is taken to be at rest [s]

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sas_motion/estimate/output.hpp"
 #include "sas_motion/estimate/smoother_options.hpp"
 #include "sas_motion/systems/ins_gps_dvl/navigator.hpp"
 
@@ -29,11 +30,11 @@ struct Config {
 };
 
 /// Where and how the body is at a stamp.
-struct Solution {
+struct NavigationSolution {
   Stamp stamp = 0;
   NavigationState state;
-  bool moving = true;  ///< velocity is known
-  bool lying = true;   ///< attitude is known
+  bool has_velocity = true;
+  bool has_attitude = true;
   std::optional<Matrix<9>>
       covariance;  ///< of velocity, position and attitude errors [m/s, m, rad], where the solution has one
   std::optional<Vector<3>> rate_body =
@@ -41,17 +42,9 @@ struct Solution {
 };
 
 /// The same solution of another point of the body, at a lever arm from the one it is of [m].
-Solution movedBy(const Solution& solution, const Vector<3>& lever_body);
+NavigationSolution movedBy(const NavigationSolution& solution, const Vector<3>& lever_body);
 
-/// What an estimator has to say since it was last asked, in time order. The caller clears it.
-struct Output {
-  std::vector<Solution> solutions;  ///< at the stamps of the inertial unit
-  std::vector<Audit> audits;
-  void clear() {
-    solutions.clear();
-    audits.clear();
-  }
-};
+using Output = OutputOf<NavigationSolution>;  ///< solutions at the stamps of the IMU
 
 /// One estimator fed with readings as they come.
 class Estimator {

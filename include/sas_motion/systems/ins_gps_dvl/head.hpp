@@ -26,10 +26,10 @@ class Head {
   void insert(const Estimator& settled, const Readings& open, std::size_t place);
 
   /// The newest solution.
-  const std::optional<Solution>& current() const { return current_; }
+  const std::optional<NavigationSolution>& current() const { return current_; }
   /// The solution at any stamp from the last settled one on: between two stamps of the inertial unit integrated with
   /// the means of that interval, after the newest with the last ones, up to `furthest` [s].
-  std::optional<Solution> at(const Estimator& settled, const Readings& open, Stamp stamp, double furthest) const;
+  std::optional<NavigationSolution> at(const Estimator& settled, const Readings& open, Stamp stamp, double furthest) const;
 
  private:
   struct Checkpoint {
@@ -42,7 +42,7 @@ class Head {
 
   std::deque<Checkpoint> checkpoints_;  // in order
   std::unique_ptr<Estimator> estimator_;
-  std::optional<Solution> current_;
+  std::optional<NavigationSolution> current_;
   std::optional<Stamp> last_checkpoint_;
   Output output_;
 };
@@ -61,8 +61,8 @@ class LiveSession {
   Session& session() { return session_; }
   const Session& session() const { return session_; }
   /// Of the lane with this number; nothing before the start.
-  const std::optional<Solution>& current(std::size_t lane) const { return heads_[lane].current(); }
-  std::optional<Solution> at(std::size_t lane, Stamp stamp) const;
+  const std::optional<NavigationSolution>& current(std::size_t lane) const { return heads_[lane].current(); }
+  std::optional<NavigationSolution> at(std::size_t lane, Stamp stamp) const;
 
  private:
   void update(std::size_t lane, bool taken, std::size_t settled);

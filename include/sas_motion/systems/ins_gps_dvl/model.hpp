@@ -128,7 +128,7 @@ class ErrorModel {
   Transition<kStates> transition(const Motion& motion, double T, const Errors& mean) const;
   Gaussian<kStates> start() const;
 
-  /// A fix of the antenna: what the INS says of it minus the fix.
+  /// A fix of the antenna, minus what the INS says of it. Innovations are z - h(x), so H = dh/dx of the errors x.
   LinearMeasurement<kStates, 3> gps(const NavigationState& ins, const NavigationState& fix, const Errors& mean) const;
   /// Velocity over the ground on the DVL's axes; `rate_body` is of the body against inertial space.
   LinearMeasurement<kStates, 3> dvl(const NavigationState& ins, const Vector<3>& rate_body,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sas_motion/estimate/audit.hpp"
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/navigation/bridged_gap.hpp"
@@ -21,20 +22,10 @@ struct Unaided {
   Update<Gaussian<kStates>, M> update(const Gaussian<kStates>& prior, const LinearMeasurement<kStates, M>& z) const;
 };
 
-/// What became of a reading of a sensor that aids.
-struct Audit {
-  Stamp stamp = 0;
-  Sensor sensor = Sensor::Gps;
-  Verdict verdict = Verdict::Accepted;
-  double nis = 0;
-  Vector<3> weights = Vector<3>::Ones();
-  Vector<3> innovation =
-      Vector<3>::Zero();            ///< what the INS says minus the reading, less the errors that are known of both
-  Matrix<3> S = Matrix<3>::Zero();  ///< its covariance, before any weighting
-  int iterations = 0;
-  const char* reason = "";    ///< plain words, a literal; empty where there is nothing to say
-  double effective_size = 0;  ///< of a filter's particles, where it has several
-};
+/// An audit that says that a reading was not fused.
+inline Audit refusal(const Aiding& reading, Verdict verdict, std::string_view reason) {
+  return sas_motion::refusal(reading.stamp, sensorName(reading.sensor), rowsOf(reading.sensor), verdict, reason);
+}
 
 struct NavigatorOptions {
   bool feedback = true;

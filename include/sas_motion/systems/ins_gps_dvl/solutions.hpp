@@ -41,6 +41,6 @@ void withFilter(FilterKind kind, const Config& config, const Visit& visit) {
 
 /// What the navigator answers at its stamp, or nothing where this source has no answer then.
 template <class Filter>
-std::optional<Solution> solutionOf(const Navigator<Filter>& navigator, Source source);
+std::optional<NavigationSolution> solutionOf(const Navigator<Filter>& navigator, Source source);
 
 }  // namespace sas_motion::ins

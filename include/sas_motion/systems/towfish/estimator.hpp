@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sas_motion/filters/update.hpp"
+#include "sas_motion/estimate/output.hpp"
 #include "sas_motion/systems/towfish/config.hpp"
 #include "sas_motion/systems/towfish/model.hpp"
 
@@ -20,30 +20,7 @@ struct Estimate {
   Gaussian<kStates> belief;
 };
 
-/// What an estimator did with one measurement; the first `rows` rows count.
-struct Audit {
-  Stamp stamp = 0;
-  Sensor sensor = Sensor::Position;
-  int rows = 0;
-  Vector<2> innovation = Vector<2>::Zero();
-  Matrix<2> S = Matrix<2>::Zero();
-  double nis = 0;
-  Vector<2> weights = Vector<2>::Ones();
-  HypothesisWeights hypotheses{};  ///< of a filter that keeps several
-  int iterations = 0;
-  Verdict verdict = Verdict::Accepted;
-  const char* reason = "";  ///< plain words, a literal; empty where there is nothing to say
-};
-
-/// What an estimator has to say since it was last asked, in time order. The caller clears it.
-struct Output {
-  std::vector<Estimate> estimates;
-  std::vector<Audit> audits;
-  void clear() {
-    estimates.clear();
-    audits.clear();
-  }
-};
+using Output = OutputOf<Estimate>;
 
 /// One estimator fed with measurements as they arrive, live or from a bag.
 ///

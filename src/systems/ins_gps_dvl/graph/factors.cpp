@@ -152,8 +152,8 @@ gtsam::Vector AidingFactor::unwhitenedError(const gtsam::Values& values,
   const Node node = values.at<Node>(keys()[0]);
   double error = 0;
   withMeasurement(*model_, node.state, reading_, rate_body_, errorsOf(node, Constants::Zero()), [&](const auto& z) {
-    Matrix<1, kStates> row = z.H.row(row_);
-    error = z.innovation(row_);
+    Matrix<1, kStates> row = -z.H.row(row_);
+    error = -z.innovation(row_);
     if constexpr (std::decay_t<decltype(z)>::kRows == 3)
       if (keys().size() > 1) distort(values, z, error, row, H);
     if (!H) return;
@@ -179,7 +179,7 @@ void AidingFactor::distort(const gtsam::Values& values, const LinearMeasurement<
   const Matrix<3> drift = driftTurn(*model_, values.at<Node>(keys()[0]));
   const Vector<3> velocity = told + turning * vectorAt(kDvlLeverKey), seen = drift * velocity;
   error += (D.row(row_) * seen)(0) - (told - of_ins + drift * of_ins)(row_);
-  row.head<9>() = D.row(row_) * z.H.leftCols<9>();
+  row.head<9>() = -D.row(row_) * z.H.leftCols<9>();
   if (model_->parameters().dvl_drift)
     row(kDvlVelocity) = -(D.row(row_) * model_->dvlError(velocity, Errors::Unit(kDvlVelocity)))(0);
   if (!H) return;

@@ -156,7 +156,7 @@ void InsWindow::forget(std::size_t count) {
 std::vector<Audit> InsWindow::audits(std::size_t k) const {
   std::vector<Audit> audits;
   for (const auto& reading : places_[k].readings) {
-    Audit audit{reading.stamp, reading.sensor};
+    Audit audit{reading.stamp, sensorName(reading.sensor), rowsOf(reading.sensor)};
     for (std::size_t row = 0; row < reading.rows.size(); ++row) {
       const double residual = reading.rows[row]->residual(values_);
       audit.weights(static_cast<Eigen::Index>(row)) = loss_.weight(residual);

@@ -131,7 +131,7 @@ Geodetic geodeticOf(const NavigationState& state) {
   return {state.latitude / kRadPerDeg, state.longitude / kRadPerDeg, state.height};
 }
 
-nav_msgs::Odometry odometryOf(const Solution& solution, const LocalFrame& frame, const InsSettings& settings) {
+nav_msgs::Odometry odometryOf(const NavigationSolution& solution, const LocalFrame& frame, const InsSettings& settings) {
   const NavigationState& state = solution.state;
   const Geodetic point = geodeticOf(state);
   const Vector<3> position = frame.position_enu(point);
@@ -151,7 +151,7 @@ nav_msgs::Odometry odometryOf(const Solution& solution, const LocalFrame& frame,
     message.y = v.y();
     message.z = v.z();
   };
-  if (solution.moving) set(odometry.twist.twist.linear, C_base_nav * state.velocity_nav);
+  if (solution.has_velocity) set(odometry.twist.twist.linear, C_base_nav * state.velocity_nav);
   if (solution.rate_body) set(odometry.twist.twist.angular, C_base_body * *solution.rate_body);
 
   Matrix<6> pose = Matrix<6>::Zero(), twist = Matrix<6>::Zero();
@@ -165,15 +165,15 @@ nav_msgs::Odometry odometryOf(const Solution& solution, const LocalFrame& frame,
     V.block<3, 3>(0, kAttitude) = -C_base_nav * skew(state.velocity_nav);
     twist.topLeftCorner<3, 3>() = V * *solution.covariance * V.transpose();
   }
-  if (!solution.lying) pose.diagonal().tail<3>().setConstant(kNotEstimated);
-  if (!solution.moving) twist.diagonal().head<3>().setConstant(kNotEstimated);
+  if (!solution.has_attitude) pose.diagonal().tail<3>().setConstant(kNotEstimated);
+  if (!solution.has_velocity) twist.diagonal().head<3>().setConstant(kNotEstimated);
   if (!solution.rate_body) twist.diagonal().tail<3>().setConstant(kNotEstimated);
   fill(odometry.pose.covariance, pose);
   fill(odometry.twist.covariance, twist);
   return odometry;
 }
 
-sensor_msgs::NavSatFix fixOf(const Solution& solution, const InsSettings& settings) {
+sensor_msgs::NavSatFix fixOf(const NavigationSolution& solution, const InsSettings& settings) {
   sensor_msgs::NavSatFix fix = fixAt(geodeticOf(solution.state), timeOf(solution.stamp), settings.base_frame);
   if (!solution.covariance) return fix;
   for (int row = 0; row < 3; ++row)

@@ -40,8 +40,8 @@ Geodetic geodeticOf(const NavigationState& state);
 
 /// map -> base with covariance, of a solution of the base. The twist is in the base frame. A covariance of zeros is
 /// unknown; 1e6 on a diagonal is what the solution does not have.
-nav_msgs::Odometry odometryOf(const ins::Solution& solution, const LocalFrame& frame, const InsSettings& settings);
-sensor_msgs::NavSatFix fixOf(const ins::Solution& solution, const InsSettings& settings);
+nav_msgs::Odometry odometryOf(const ins::NavigationSolution& solution, const LocalFrame& frame, const InsSettings& settings);
+sensor_msgs::NavSatFix fixOf(const ins::NavigationSolution& solution, const InsSettings& settings);
 sas_motion::FilterUpdate updateOf(const ins::Audit& audit);
 
 }  // namespace sas_motion::ros_side

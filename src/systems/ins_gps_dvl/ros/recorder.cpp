@@ -104,7 +104,7 @@ void InsRecorder::transforms() {
 
 void InsRecorder::truth(double seconds) {
   const TruthSample sample = trajectory_.at(seconds);
-  Solution exact;
+  NavigationSolution exact;
   exact.stamp = kStart + stampFromSeconds(seconds);
   exact.state = sample.state;
   exact.rate_body =

@@ -33,7 +33,7 @@ class Writer {
   void drain(ins::Output& output, const std::optional<LocalFrame>& frame, const Vector<3>& base_lever_body) {
     inTimeOrder(
         output.solutions, output.audits,
-        [&](const ins::Solution& solution) {
+        [&](const ins::NavigationSolution& solution) {
           if (rate_.due(solution.stamp)) write(movedBy(solution, base_lever_body), *frame);
         },
         [&](const ins::Audit& audit) {
@@ -53,7 +53,7 @@ class Writer {
   const ReprocessReport::PerEstimator& report() const { return report_; }
 
  private:
-  void write(const ins::Solution& base, const LocalFrame& frame) {
+  void write(const ins::NavigationSolution& base, const LocalFrame& frame) {
     const ros::Time time = timeOf(base.stamp);
     const auto odometry = odometryOf(base, frame, settings_);
     bag_.write(name_ + "/odometry", time, odometry);

@@ -218,7 +218,7 @@ void FixedLagSmoother::settle(Stamp until, Output& output) {
         const auto weights = weightsAt(z, estimate.belief.mean, window_->model, node.loss);
         output.audits.push_back(smoothedAudit(z, estimate.belief.mean, window_->model, weights, 1));
       }
-      output.estimates.push_back(estimate);
+      output.solutions.push_back(estimate);
       node.measurements.clear();
       node.put_out = true;
     }

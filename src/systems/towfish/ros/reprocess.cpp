@@ -50,9 +50,9 @@ class Lane {
 
  private:
   void drain(const LocalFrame* frame) {
-    for (const auto& estimate : output_.estimates) tum_.write(estimate);
+    for (const auto& estimate : output_.solutions) tum_.write(estimate);
     for (const auto& audit : output_.audits) ++report_.verdicts[static_cast<std::size_t>(audit.verdict)];
-    report_.estimates += output_.estimates.size();
+    report_.estimates += output_.solutions.size();
     forEachMessage(
         name_, "odometry", output_, frame, settings_,
         [this](const std::string& topic, ros::Time time, const auto& message) { bag_.write(topic, time, message); });

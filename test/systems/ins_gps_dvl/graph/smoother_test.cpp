@@ -44,7 +44,7 @@ TEST(InsSmoother, AtTheEndBatchIsTheKalmanFilter) {
   const Recording recording = recordingOf(scenario, 3);
   InsSmoother batch(configOf(scenario), linearLoss());
   const Output smoothed = outputOf(batch, recording), filtered = outputOf("ckf27", scenario, recording);
-  const Solution &a = smoothed.solutions.back(), &b = filtered.solutions.back();
+  const NavigationSolution &a = smoothed.solutions.back(), &b = filtered.solutions.back();
   ASSERT_EQ(a.stamp, b.stamp);
   const Vector<9> sigma = b.covariance->diagonal().cwiseSqrt();
   Vector<9> difference;
@@ -138,7 +138,7 @@ TEST(InsSmoother, ErrorsAreAsLargeAsItsCovarianceSays) {
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     InsSmoother batch(configOf(scenario), linearLoss());
     const Output output = outputOf(batch, simulate(scenario, trajectory, seed));
-    const Solution& solution = output.solutions[3000];
+    const NavigationSolution& solution = output.solutions[3000];
     const NavigationState truth = trajectory.at(secondsBetween(0, solution.stamp)).state;
     Vector<9> error;
     error << solution.state.velocity_nav - truth.velocity_nav, displacement(truth, solution.state),

@@ -35,8 +35,8 @@ geometry_msgs::TwistWithCovarianceStamped twistOf(double x, double y, double z, 
   return twist;
 }
 
-ins::Solution solutionAt(double heading) {
-  ins::Solution solution;
+ins::NavigationSolution solutionAt(double heading) {
+  ins::NavigationSolution solution;
   solution.stamp = 10 * kNanosecondsPerSecond;
   solution.state.latitude = 54.35 * kRadPerDeg;
   solution.state.longitude = 10.15 * kRadPerDeg;
@@ -194,7 +194,7 @@ TEST(InsConversions, CovariancesAreThoseOfPerturbedSolutions) {
   const LocalFrame frame({54.2, 9.9, 0});
   const InsSettings settings;
   const Vector<3> lever(0.4, -1.2, 3.5);
-  ins::Solution solution = solutionAt(0.7);
+  ins::NavigationSolution solution = solutionAt(0.7);
   Matrix<9> root = Matrix<9>::Random();
   const Matrix<9> P = root * root.transpose();
   solution.covariance = P;
@@ -205,7 +205,7 @@ TEST(InsConversions, CovariancesAreThoseOfPerturbedSolutions) {
   constexpr double kStep = 1e-4;
   for (int i = 0; i < 9; ++i) {
     const auto with = [&](double error) {
-      ins::Solution wrong = solution;
+      ins::NavigationSolution wrong = solution;
       Vector<9> e = Vector<9>::Zero();
       e(i) = error;
       wrong.state.velocity_nav += e.head<3>();
@@ -227,7 +227,7 @@ TEST(InsConversions, CovariancesAreThoseOfPerturbedSolutions) {
 
 TEST(InsConversions, ASolutionGoesOutInRep103AndComesBack) {
   const LocalFrame frame({54.35, 10.15, 0});
-  ins::Solution solution = solutionAt(kPi / 2);  // bound east
+  ins::NavigationSolution solution = solutionAt(kPi / 2);  // bound east
   solution.state.q_nav_body = Eigen::Quaterniond(rotationOf(Attitude{0, 0, kPi / 2}));
   const auto odometry = odometryOf(solution, frame, {});
   EXPECT_NEAR(odometry.pose.pose.orientation.w, 1, 1e-12);  // x of the base is east
@@ -237,7 +237,7 @@ TEST(InsConversions, ASolutionGoesOutInRep103AndComesBack) {
   EXPECT_NEAR(odometry.twist.twist.angular.x, 0.02, 1e-12);
   EXPECT_NEAR(odometry.twist.twist.angular.y, -0.01, 1e-12);
   EXPECT_EQ(odometry.pose.covariance[0], 0);  // unknown
-  solution.lying = solution.moving = false;
+  solution.has_attitude = solution.has_velocity = false;
   solution.rate_body.reset();
   const auto position = odometryOf(solution, frame, {});
   EXPECT_EQ(position.pose.covariance[35], 1e6);

@@ -30,7 +30,7 @@ ins::Output outputOf(const std::string& name, const Scenario& scenario, const in
   return output;
 }
 
-double headingError(const ins::Solution& solution, const Scenario& scenario) {
+double headingError(const ins::NavigationSolution& solution, const Scenario& scenario) {
   const auto truth = ins::Trajectory(scenario.track, scenario.duration).at(secondsBetween(0, solution.stamp)).state;
   return attitudeError(solution.state.q_nav_body, truth.q_nav_body).z();
 }

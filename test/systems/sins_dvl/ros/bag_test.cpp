@@ -24,7 +24,7 @@ sins::Scenario scenarioWithLevers() {
 }
 
 /// The same readings without a bag between.
-std::vector<ins::Solution> inMemory(const sins::Scenario& scenario, std::uint64_t seed, const std::string& name,
+std::vector<ins::NavigationSolution> inMemory(const sins::Scenario& scenario, std::uint64_t seed, const std::string& name,
                                     int particles) {
   const auto recording = sins::simulate(scenario, ins::Trajectory(scenario.track, scenario.duration), seed);
   sins::Config config;

@@ -22,12 +22,12 @@ StateVector distanceFromBatch(const Output& output, const Config& config,
   const auto problem = *buildProblem(measurements, config);
   const auto batch = smoothRts(problem, {config.fixed_lag.loss, 500, 1e-12});
   StateVector squares = StateVector::Zero();
-  EXPECT_EQ(output.estimates.size(), problem.nodes());
-  for (std::size_t k = 0; k < std::min(problem.nodes(), output.estimates.size()); ++k) {
-    EXPECT_EQ(output.estimates[k].stamp, problem.stamps[k]);
+  EXPECT_EQ(output.solutions.size(), problem.nodes());
+  for (std::size_t k = 0; k < std::min(problem.nodes(), output.solutions.size()); ++k) {
+    EXPECT_EQ(output.solutions[k].stamp, problem.stamps[k]);
     const StateVector sigma = batch.states[k].covariance.diagonal().cwiseSqrt();
     squares +=
-        Model::difference(output.estimates[k].belief.mean, batch.states[k].mean).cwiseQuotient(sigma).cwiseAbs2();
+        Model::difference(output.solutions[k].belief.mean, batch.states[k].mean).cwiseQuotient(sigma).cwiseAbs2();
   }
   return (squares / static_cast<double>(problem.nodes())).cwiseSqrt();
 }
@@ -104,9 +104,9 @@ TEST(FixedLag, SurvivesWhatItsSolverCannotSolve) {
   Output output;
   EXPECT_NO_THROW(output = testing::feed(smoother, measurements));
   EXPECT_GT(smoother.rebuilds(), 0);
-  ASSERT_GT(output.estimates.size(), 100u);
+  ASSERT_GT(output.solutions.size(), 100u);
   testing::expectRisingStamps(output);
-  for (const auto& estimate : output.estimates) ASSERT_TRUE(estimate.belief.mean.allFinite());
+  for (const auto& estimate : output.solutions) ASSERT_TRUE(estimate.belief.mean.allFinite());
 }
 
 TEST(FixedLag, BrokenMeasurementsAreCountedAndChangeNothing) {
@@ -185,7 +185,7 @@ TEST(FixedLag, StartsAgainFromAStateThatIsSet) {
   smoother.finish(output);
   testing::expectRisingStamps(output);
   std::size_t after = 0;
-  for (const auto& estimate : output.estimates) {
+  for (const auto& estimate : output.solutions) {
     const double t = secondsBetween(Simulator::kStart, estimate.stamp);
     if (t < 20) {
       ASSERT_LT(testing::positionError(estimate, run), 5) << t;
@@ -214,9 +214,9 @@ TEST(FixedLag, AnotherLossCountsFromTheNextMeasurementOn) {
     other.process(z, output);
   }
   std::size_t before = 0, differ = 0;
-  for (std::size_t i = 0; i < std::min(expected.estimates.size(), output.estimates.size()); ++i) {
-    const bool same = expected.estimates[i].belief.mean == output.estimates[i].belief.mean;
-    const double t = secondsBetween(Simulator::kStart, expected.estimates[i].stamp);
+  for (std::size_t i = 0; i < std::min(expected.solutions.size(), output.solutions.size()); ++i) {
+    const bool same = expected.solutions[i].belief.mean == output.solutions[i].belief.mean;
+    const double t = secondsBetween(Simulator::kStart, expected.solutions[i].stamp);
     ASSERT_TRUE(same || t >= 12) << t;  // settled before the change
     before += t < 12;
     differ += !same;
