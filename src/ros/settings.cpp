@@ -18,20 +18,4 @@ void MapSettings::readMap(YamlSection& yaml) {
   readGeodetic(yaml, "datum", *datum);
 }
 
-Settings Settings::fromFile(const std::string& file) {
-  Settings settings;
-  if (file.empty()) return settings;
-  auto yaml = YamlSection::fromFile(file);
-  readSystem(yaml, "towfish");
-  readConfig(yaml, settings.estimation);
-  auto topics = yaml.section("topics");
-  topics.text("fix", settings.fix_topic);
-  topics.text("imu", settings.imu_topic);
-  topics.text("twist", settings.twist_topic);
-  topics.finish();
-  settings.readMap(yaml);
-  yaml.finish();
-  return settings;
-}
-
 }  // namespace sas_motion::ros_side

@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "sas_motion/config/yaml_section.hpp"
 #include "sas_motion/navigation/local_frame.hpp"
-#include "sas_motion/systems/towfish/config.hpp"
 
 namespace sas_motion::ros_side {
 
-/// Names of frames, and where the map is: what every configuration file of reprocess and the filters' nodelets has.
+/// Names of frames, and where the map is: what every configuration file of reprocess and of the estimators' nodelets has.
 struct MapSettings {
   std::string map_frame = "map";
   std::string odom_frame = "odom";
@@ -20,18 +20,6 @@ struct MapSettings {
 
   /// Reads the section frames and the datum. Throws ConfigError.
   void readMap(YamlSection& yaml);
-};
-
-/// The configuration file of a towfish's nodelets and of reprocess: the estimators' settings, and what ties them to
-/// messages.
-struct Settings : MapSettings {
-  towfish::Config estimation;
-  std::string fix_topic = "gnss/fix";
-  std::string imu_topic = "imu/data";
-  std::string twist_topic = "dvl/twist";
-
-  /// Throws ConfigError. An empty name gives the defaults.
-  static Settings fromFile(const std::string& file);
 };
 
 }  // namespace sas_motion::ros_side
