@@ -28,6 +28,7 @@ INS = ["ins", "gps", "dvl", "ckf27", "gps_ckf27", "dvl_ckf27", "open_loop_ckf27"
        "smooth_ckf27", "smooth_robust_ckf27", "batch", "fixed_lag"]
 SINS = ["pf", "upf", "ss_srupf", "robust_ss_srupf", "smooth_ss_srupf", "ss_srupf_optimal", "ss_srupf_literal", "ss_srukf", "ukf", "ckf27", "robust_ckf27",
         "batch", "fixed_lag"]
+FOCUSED = ["robust_ckf27", "smooth_robust_ckf27", "batch"]
 SIMULATED = {  # name: scenario, seconds, configuration, estimators
     "towfish": ("survey_outliers_20.yaml", 120, None, TOWFISH),
     "ins": ("ins/survey.yaml", 120, "ins_gps_dvl.yaml", INS),
@@ -150,7 +151,7 @@ def record_bags(digests, folder):
         run("sas_motion_metrics", out, "-o", folder / name / "scores")
         digests.add(f"reprocessed {name}/metrics", json.loads((folder / name / "scores" / "metrics.json").read_text())["estimators"])
         if name == "ins":
-            run("focus", out, "-o", folder / name / "images")
+            run("focus", out, "-o", folder / name / "images", "--trajectory", *FOCUSED)
             digests.add(f"focus {name}", json.loads((folder / name / "images" / "focus.json").read_text()))
 
 

@@ -48,12 +48,17 @@ class BagReader {
   template <class Message>
   bool get(const BagMessage& message, Message& into) const {
     if (message.connection->md5sum != ros::message_traits::MD5Sum<Message>::value()) return false;
+    read(message, [&](ros::serialization::IStream& stream) { ros::serialization::deserialize(stream, into); });
+    return true;
+  }
+  /// Hands a message's bytes to `use(stream)`, which deserialises them.
+  template <class Use>
+  void read(const BagMessage& message, const Use& use) const {
     guarded([&] {
       ros::serialization::IStream stream(const_cast<std::uint8_t*>(message.bytes.data()),
                                          static_cast<std::uint32_t>(message.bytes.size()));
-      ros::serialization::deserialize(stream, into);
+      use(stream);
     });
-    return true;
   }
 
   /// Memory taken for chunks and their messages now [byte].

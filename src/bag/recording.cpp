@@ -12,6 +12,7 @@
 
 #include "bag/bag_reader.hpp"
 #include "bag/topics.hpp"
+#include "ros/solution_messages.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 using namespace towfish;
 
 constexpr double kLongestGap = 5;      // between two truths, that is interpolated over [s]
-constexpr double kNotEstimated = 1e6;  // variance of what an estimator does not have
 
 double headingOf(const geometry_msgs::Quaternion& q) {
   const double yaw = std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));

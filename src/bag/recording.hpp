@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/conversions.hpp"
+#include "sas_motion/evaluation/scores.hpp"
 #include "sas_motion/evaluation/motion_scores.hpp"
 
 namespace sas_motion::ros_side {
@@ -32,7 +32,7 @@ struct RecordedAudit {
 
 /// What one estimator wrote into a bag. The speed of its states is forward over ground.
 struct RecordedEstimator {
-  std::vector<Estimate> estimates;
+  std::vector<towfish::Estimate> estimates;
   std::vector<MotionSample> motions;  ///< beside the estimates, of an estimator of six degrees of freedom
   std::vector<RecordedAudit> audits;
 };

@@ -5,52 +5,136 @@
 #include <fmt/format.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
+#include "bag/bag_output.hpp"
+#include "bag/bag_reader.hpp"
 #include "bag/topics.hpp"
+#include "bag/tum.hpp"
+#include "ros/solution_messages.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
 
+constexpr std::size_t kBatch = 256;  // readings handed to an estimator at once
+
 /// What to do with the messages of a connection.
 struct Route {
   enum Kind { kAnother, kOfAnEarlierRun, kTransforms, kSensor } kind = kAnother;
+  std::size_t source = 0;               // of a sensor
   std::optional<std::uint32_t> output;  // its connection there
 };
 
-std::vector<Route> routesOf(const std::vector<BagConnection>& connections, const BagRun& run,
+std::vector<Route> routesOf(const std::vector<BagConnection>& connections, const std::vector<MessageSource>& sources,
                             const std::vector<std::string>& estimators, const std::string& file) {
   std::vector<Route> routes(connections.size());
   for (const auto& connection : connections) {
-    auto& kind = routes[connection.index].kind;
-    if (connection.type == "tf2_msgs/TFMessage") kind = Route::kTransforms;
-    if (isEstimate(connection.topic, estimators)) kind = Route::kOfAnEarlierRun;
-    if (!run.isSensor(connection)) continue;
-    if (kind == Route::kOfAnEarlierRun)
+    Route& route = routes[connection.index];
+    if (connection.type == "tf2_msgs/TFMessage") route.kind = Route::kTransforms;
+    if (isEstimate(connection.topic, estimators)) route.kind = Route::kOfAnEarlierRun;
+    const auto source = std::find_if(sources.begin(), sources.end(), [&](const MessageSource& s) {
+      return s.topic == connection.topic && s.md5 == connection.md5sum;
+    });
+    if (source == sources.end()) continue;
+    if (route.kind == Route::kOfAnEarlierRun)
       throw std::runtime_error(
           fmt::format("{}: topic {} is a sensor's, and an estimator would write it too; leave that estimator out", file,
                       connection.topic));
-    kind = Route::kSensor;
+    route.kind = Route::kSensor;
+    route.source = static_cast<std::size_t>(source - sources.begin());
   }
   return routes;
 }
 
+/// Where one estimator's answers go.
+class LaneWriter {
+ public:
+  LaneWriter(const std::string& name, const MapSettings& settings, BagOutput& bag, const std::string& tum)
+      : name_(name), settings_(settings), bag_(bag), tum_(tum) {}
+
+  void write(const Output& output) {
+    for (const auto& solution : output.solutions) tum_.write(solution);
+    for (const auto& audit : output.audits) ++report_.verdicts[static_cast<std::size_t>(audit.verdict)];
+    report_.estimates += output.solutions.size();
+    forEachMessage(name_, output, settings_, [this](const std::string& topic, ros::Time time, const auto& message) {
+      bag_.write(topic, time, message);
+    });
+  }
+  void close(const LaneReport& lane) {
+    report_.lane = lane;
+    tum_.close();
+  }
+  void commit() { tum_.commit(); }
+  const ReprocessReport::PerEstimator& report() const { return report_; }
+
+ private:
+  std::string name_;
+  const MapSettings& settings_;
+  BagOutput& bag_;
+  TumFile tum_;
+  ReprocessReport::PerEstimator report_;
+};
+
+/// A bag on its way through a system's estimators.
+class BagRun {
+ public:
+  BagRun(const System& system, const std::vector<std::string>& estimators, const tf2::BufferCore& transforms,
+         BagOutput& bag, const std::string& stem)
+      : run_(system.begin(estimators, transforms, false)) {
+    for (const auto& name : estimators)
+      writers_.push_back(std::make_unique<LaneWriter>(name, system.map, bag, fmt::format("{}.{}.tum", stem, name)));
+  }
+
+  void take(const Route& route, const BagReader& bag, const BagMessage& message) {
+    bag.read(message, [&](ros::serialization::IStream& stream) { run_->take(route.source, stream); });
+    if (run_->session().unfed() < kBatch) return;
+    run_->session().feed();
+    drain();
+  }
+
+  void finish(const std::string& file, const std::vector<MessageSource>& topics, ReprocessReport& report) {
+    run_->finish();
+    drain();
+    for (std::size_t i = 0; i < topics.size(); ++i)
+      if (!topics[i].topic.empty() || topics[i].need != MessageSource::Need::NamedAlone)
+        report.sensors[topics[i].name] = run_->inbox().counts(i);
+    bool nothing = true;
+    for (std::size_t i = 0; i < writers_.size(); ++i) {
+      writers_[i]->close(run_->session().report(i));
+      report.estimators[run_->session().names()[i]] = writers_[i]->report();
+      nothing &= writers_[i]->report().estimates == 0;
+    }
+    if (const std::string waits_for = run_->waitsFor(); nothing && !waits_for.empty())
+      throw std::runtime_error(fmt::format("{}: the estimators never started: {}", file, waits_for));
+    report.warnings = run_->warnings();
+  }
+
+  void commit() {
+    for (auto& writer : writers_) writer->commit();
+  }
+  const std::optional<LocalFrame>& map() const { return run_->frame().map; }
+
+ private:
+  void drain() {
+    for (std::size_t i = 0; i < writers_.size(); ++i) {
+      output_.clear();
+      run_->session().takeSettled(i, run_->frame(), output_);
+      writers_[i]->write(output_);
+    }
+  }
+
+  std::unique_ptr<SystemRun> run_;
+  std::vector<std::unique_ptr<LaneWriter>> writers_;
+  Output output_;
+};
+
 }  // namespace
 
-std::unique_ptr<ReprocessSystem> makeReprocessSystem(const std::string& config) {
-  std::string system = "towfish";
-  if (config.empty()) return makeTowfishSystem(config);
-  auto yaml = YamlSection::fromFile(config);
-  yaml.text("system", system);
-  if (system == "ins_gps_dvl" || system == "sins_dvl") return makeInsSystem(config);
-  if (system != "towfish")
-    yaml.fail("system", fmt::format("is '{}' but must be towfish, ins_gps_dvl or sins_dvl", system));
-  return makeTowfishSystem(config);
-}
-
 ReprocessReport reprocess(const std::string& input, const std::string& folder,
-                          const std::vector<std::string>& estimators, const ReprocessSystem& system,
+                          const std::vector<std::string>& estimators, const System& system,
                           const std::function<void(double)>& progress) {
   BagReader source(input);
   const std::filesystem::path out = std::filesystem::path(folder) / std::filesystem::path(input).filename();
@@ -61,11 +145,11 @@ ReprocessReport reprocess(const std::string& input, const std::string& folder,
   ReprocessReport report;
   report.input = input;
   report.output = out;
+  const auto topics = findTopics(source.connections(), system.sources, input);
+  std::vector<Route> routes = routesOf(source.connections(), topics, estimators, input);
   BagOutput bag(out);
   tf2::BufferCore transforms;
-  const auto run =
-      system.begin(source, input, estimators, {transforms, bag, (out.parent_path() / out.stem()).string()});
-  std::vector<Route> routes = routesOf(source.connections(), *run, estimators, input);
+  BagRun run(system, estimators, transforms, bag, (out.parent_path() / out.stem()).string());
 
   double done = 0;
   bool datum_written = false;
@@ -79,9 +163,9 @@ ReprocessReport reprocess(const std::string& input, const std::string& folder,
     if (route.kind == Route::kTransforms && source.get(*m, tf))
       for (const auto& T : tf.transforms)
         transforms.setTransform(T, "bag", bareTopic(m->connection->topic) == "tf_static");
-    if (route.kind == Route::kSensor) run->take(source, *m);
-    if (!datum_written && run->frame()) {
-      bag.writeLatched("datum", m->time, datumOf(*run->frame(), system.map(), m->time));
+    if (route.kind == Route::kSensor) run.take(route, source, *m);
+    if (!datum_written && run.map()) {
+      bag.writeLatched("datum", m->time, fixAt(run.map()->datum(), m->time, system.map.map_frame));
       datum_written = true;
     }
     if (report.messages % 1024 == 0) {
@@ -91,9 +175,9 @@ ReprocessReport reprocess(const std::string& input, const std::string& folder,
     }
   }
   report.duration = (source.end() - source.begin()).toSec();
-  run->finish(report);
+  run.finish(input, topics, report);
   bag.commit();
-  run->commit();
+  run.commit();
   progress(report.duration - done);
   return report;
 }

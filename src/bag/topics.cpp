@@ -12,8 +12,6 @@
 namespace sas_motion::ros_side {
 namespace {
 
-constexpr const char* kTwist = "geometry_msgs/TwistWithCovarianceStamped";
-
 using TypeByTopic = std::map<std::string, std::string>;
 
 /// Whether an estimator NAME writes NAME/leaf.
@@ -57,57 +55,35 @@ TypeByTopic sensorsIn(const std::vector<BagConnection>& connections) {
 
 }  // namespace
 
-SensorTopics findTopics(const std::vector<BagConnection>& connections, const Settings& settings,
-                        const std::string& file) {
-  const TypeByTopic sensors = sensorsIn(connections);
-  SensorTopics topics;
-  topics.fix = find(sensors, settings.fix_topic, "sensor_msgs/NavSatFix", file);
-  topics.imu = find(sensors, settings.imu_topic, "sensor_msgs/Imu", file);
-  topics.twist = find(sensors, settings.twist_topic, "geometry_msgs/TwistWithCovarianceStamped", file);
-  if (topics.fix.empty() && topics.imu.empty() && topics.twist.empty())
-    throw std::runtime_error(fmt::format(
-        "{}: no known topic; {}, {} or {} (or topics of their types) are needed, 'rosbag info' lists what there is",
-        file, settings.fix_topic, settings.imu_topic, settings.twist_topic));
-  if (topics.fix.empty())
-    throw std::runtime_error(fmt::format("{}: no topic {} or any other sensor_msgs/NavSatFix; positions are needed",
-                                         file, settings.fix_topic));
-  if (topics.imu.empty())
-    throw std::runtime_error(
-        fmt::format("{}: no topic {} or any other sensor_msgs/Imu; headings are needed", file, settings.imu_topic));
-  return topics;
-}
-
-InsTopics findTopics(const std::vector<BagConnection>& connections, const InsSettings& settings,
-                     const std::string& file) {
-  TypeByTopic sensors = sensorsIn(connections);
-  InsTopics topics;
-  for (const auto& [topic, type] : sensors) {
-    if (settings.velocity_topic.empty() || bareTopic(topic) != bareTopic(settings.velocity_topic)) continue;
-    if (type != kTwist)
-      throw std::runtime_error(
-          fmt::format("{}: topic {} is a {} but must be a {} (topics.velocity)", file, topic, type, kTwist));
-    topics.velocity = topic;
+std::vector<MessageSource> findTopics(const std::vector<BagConnection>& connections, std::vector<MessageSource> sources,
+                                      const std::string& file) {
+  using Need = MessageSource::Need;
+  TypeByTopic there = sensorsIn(connections);
+  for (auto& source : sources) {
+    if (source.need != Need::NamedAlone) continue;
+    const auto found = std::find_if(there.begin(), there.end(), [&](const auto& topic) {
+      return !source.topic.empty() && bareTopic(topic.first) == bareTopic(source.topic);
+    });
+    source.topic = found == there.end() ? "" : found->first;
+    if (found == there.end()) continue;
+    if (found->second != source.type)
+      throw std::runtime_error(fmt::format("{}: topic {} is a {} but must be a {} (topics.{})", file, found->first,
+                                           found->second, source.type, source.name));
+    there.erase(found);  // it is no other source's
   }
-  sensors.erase(topics.velocity);  // it is not the DVL's
   std::vector<std::string> missing;
-  const auto take = [&](std::string& topic, const std::string& wanted, const char* type, const char* key,
-                        bool enabled) {
-    topic = enabled ? find(sensors, wanted, type, file) : "";
-    if (topic.empty() && enabled) missing.push_back(fmt::format("{} ({}, topics.{})", wanted, type, key));
-  };
-  const auto enabled = [&](ins::Sensor sensor) { return settings.estimation.of(sensor).enabled; };
-  take(topics.imu, settings.imu_topic, "sensor_msgs/Imu", "imu", true);
-  take(topics.fix, settings.fix_topic, "sensor_msgs/NavSatFix", "fix", enabled(ins::Sensor::Gps));
-  take(topics.twist, settings.twist_topic, kTwist, "twist", enabled(ins::Sensor::Dvl));
-  take(topics.depth, settings.depth_topic, "geometry_msgs/PoseWithCovarianceStamped", "depth",
-       enabled(ins::Sensor::Depth));
-  if (missing.empty()) return topics;
-  throw std::runtime_error(
-      fmt::format("{}: no topic {}; 'rosbag info' lists what there is. Where there is no such sensor, say enabled: "
-                  "false under {} in the configuration",
-                  file, fmt::join(missing, ", "),
-                  settings.estimation.session.alignment.fixes_aid ? "gps, dvl or depth"
-                                                                  : "dvl or depth; a fix has to start the INS"));
+  for (auto& source : sources) {
+    if (source.need == Need::NamedAlone) continue;
+    const std::string wanted = source.topic;
+    source.topic = source.enabled ? find(there, wanted, source.type, file) : "";
+    if (source.topic.empty() && source.enabled && source.need == Need::Required)
+      missing.push_back(fmt::format("{} ({}, topics.{}): {}", wanted, source.type, source.name, source.use));
+  }
+  if (missing.empty()) return sources;
+  throw std::runtime_error(fmt::format(
+      "{}: no topic {}; 'rosbag info' lists what there is. Where there is no such sensor, say enabled: false "
+      "in the configuration, if the system can do without",
+      file, fmt::join(missing, ", ")));
 }
 
 bool isEstimate(const std::string& topic, const std::vector<std::string>& estimators) {

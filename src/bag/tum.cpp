@@ -4,10 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
 #include <stdexcept>
-#include <string_view>
 
 #include "sas_motion/io/fixed_decimals.hpp"
 
@@ -22,39 +20,21 @@ TumFile::~TumFile() {
   if (stream_) std::fclose(stream_);
 }
 
-void TumFile::beginLine(Stamp stamp, double x, double y) {
+void TumFile::write(const Solution& solution) {
   line_.clear();
-  fmt::format_to(std::back_inserter(line_), "{}.{:09d} ", stamp / kNanosecondsPerSecond, stamp % kNanosecondsPerSecond);
-  appendFixed(x, 9, line_);
-  line_.push_back(' ');
-  appendFixed(y, 9, line_);
-}
-
-void TumFile::endLine() {
+  fmt::format_to(std::back_inserter(line_), "{}.{:09d}", solution.stamp / kNanosecondsPerSecond,
+                 solution.stamp % kNanosecondsPerSecond);
+  const auto append = [this](double value, int decimals) {
+    line_.push_back(' ');
+    if (value == 0)
+      line_.push_back('0');  // what a system in the plane does not have
+    else
+      appendFixed(value, decimals, line_);
+  };
+  for (const double part : solution.position_map) append(part, 9);
+  for (const double part : solution.q_map_base.coeffs()) append(part, 12);
   line_.push_back('\n');
   std::fwrite(line_.data(), 1, line_.size(), stream_);  // commit() looks for failures
-}
-
-void TumFile::write(const towfish::Estimate& estimate) {
-  const auto& x = estimate.belief.mean;
-  const double yaw = kPi / 2 - x(towfish::kHeading);
-  beginLine(estimate.stamp, x(towfish::kEast), x(towfish::kNorth));
-  line_.append(std::string_view(" 0 0 0 "));
-  appendFixed(std::sin(yaw / 2), 12, line_);
-  line_.push_back(' ');
-  appendFixed(std::cos(yaw / 2), 12, line_);
-  endLine();
-}
-
-void TumFile::write(Stamp stamp, const geometry_msgs::Pose& pose) {
-  beginLine(stamp, pose.position.x, pose.position.y);
-  line_.push_back(' ');
-  appendFixed(pose.position.z, 9, line_);
-  for (const double part : {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w}) {
-    line_.push_back(' ');
-    appendFixed(part, 12, line_);
-  }
-  endLine();
 }
 
 void TumFile::close() {

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <geometry_msgs/Pose.h>
 
 #include <cstdio>
 #include <string>
 
+#include "sas_motion/estimate/solution.hpp"
 #include "sas_motion/io/atomic_file.hpp"
-#include "sas_motion/systems/towfish/estimator.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -21,17 +20,13 @@ class TumFile {
   TumFile(const TumFile&) = delete;
   TumFile& operator=(const TumFile&) = delete;
 
-  void write(const towfish::Estimate& estimate);
-  void write(Stamp stamp, const geometry_msgs::Pose& pose);
+  void write(const Solution& solution);
   /// No more is written. Throws std::runtime_error naming the file where the disk is full.
   void close();
   /// Closes and puts in place.
   void commit();
 
  private:
-  void beginLine(Stamp stamp, double x, double y);
-  void endLine();
-
   std::string path_;
   AtomicFile file_;
   std::FILE* stream_;

@@ -4,64 +4,64 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
-#include "ros/serving.hpp"
-#include "systems/towfish/graph/estimators.hpp"
-
 namespace sas_motion::ros_side {
+namespace {
 
-BatchSolver::BatchSolver(ros::NodeHandle node, ros::NodeHandle own, const Settings& settings)
-    : settings_(settings),
-      estimator_(towfish::makeAnyEstimator("batch", settings.estimation)),
-      publisher_(node, "batch"),
+const std::string kBatch = "batch";
+constexpr double kBetweenReceipts = 1;  // messages wait so long to be converted, which is all that is kept of them [s]
+
+}  // namespace
+
+BatchSolver::BatchSolver(ros::NodeHandle node, ros::NodeHandle own, const System& system,
+                         const tf2::BufferCore& transforms)
+    : system_(system),
+      run_((system.require({kBatch}), system.begin({kBatch}, transforms, false))),
+      publisher_(node, kBatch, system.has_current),
       spinner_(1, &queue_) {
   own.setCallbackQueue(&queue_);
   service_ = own.advertiseService("solve_batch", &BatchSolver::onSolve, this);
+  timer_ = own.createWallTimer(ros::WallDuration(kBetweenReceipts), [this](const ros::WallTimerEvent&) { receive(); });
   spinner_.start();
 }
 
-void BatchSolver::take(const Measurement& z) {
+void BatchSolver::take(SystemRun::Delivery message) {
   const std::lock_guard lock(mutex_);
-  taken_.push_back(z);
+  waiting_.push_back(std::move(message));
 }
 
-void BatchSolver::reset() {
-  const std::lock_guard lock(mutex_);
-  taken_.clear();
-  anew_ = true;
+void BatchSolver::restart() {
+  take([this](SystemRun& run) {
+    run.restart();
+    publisher_.clear();
+  });
 }
 
 void BatchSolver::receive() {
-  std::vector<Measurement> fresh;
+  std::vector<SystemRun::Delivery> fresh;
   {
     const std::lock_guard lock(mutex_);
-    fresh.swap(taken_);
-    if (std::exchange(anew_, false)) {
-      estimator_->reset();
-      publisher_.clear();
-    }
+    fresh.swap(waiting_);
   }
-  towfish::Output refused;
-  for (const auto& z : fresh) estimator_->process(z, refused);
-  publisher_.queue(refused);
+  for (const auto& message : fresh) message(*run_);
+  run_->session().feed();
 }
 
 bool BatchSolver::onSolve(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   receive();
   const ros::WallTime begin = ros::WallTime::now();
-  towfish::Output output;
-  estimator_->finish(output);
+  run_->session().finish();
   const double seconds = (ros::WallTime::now() - begin).toSec();
-  const std::size_t states = output.estimates.size();
+  Output output;
+  run_->session().takeSettled(0, run_->frame(), output);
+  const std::size_t states = output.solutions.size();
   publisher_.queue(output);
   while (ros::ok() && !publisher_.nothingQueued()) {
-    publisher_.publishSettled(kBurst, settings_);
+    publisher_.publishSettled(kBurst, system_.map);
     ros::WallDuration(kBetweenBursts).sleep();
   }
   response.success = states > 0;
-  response.message =
-      states > 0 ? fmt::format("{} states in {:.2f} s", states, seconds) : "nothing solved: " + estimator_->failure();
+  response.message = states > 0 ? fmt::format("{} states in {:.2f} s", states, seconds)
+                                : "nothing solved: " + run_->session().report(0).failure;
   return true;
 }
 

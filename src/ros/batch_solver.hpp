@@ -3,40 +3,38 @@
 #pragma once
 
 #include <ros/callback_queue.h>
-#include <ros/ros.h>
 #include <ros/spinner.h>
 #include <std_srvs/Trigger.h>
 
-#include <memory>
 #include <mutex>
-#include <vector>
 
-#include "ros/estimate_publisher.hpp"
+#include "ros/publisher.hpp"
+#include "ros/system.hpp"
 
 namespace sas_motion::ros_side {
 
-/// Keeps the measurements of a whole run and solves them on ~solve_batch, in a thread of its own: solving takes
+/// Takes the messages of a whole run and solves them by `batch` on ~solve_batch, in a thread of its own: solving takes
 /// seconds, and so does publishing the answer no faster than a recorder takes it.
 class BatchSolver {
  public:
-  /// `settings` outlive the solver.
-  BatchSolver(ros::NodeHandle node, ros::NodeHandle own, const Settings& settings);
+  /// `system` and `transforms` outlive the solver. Throws std::runtime_error where the system has no batch.
+  BatchSolver(ros::NodeHandle node, ros::NodeHandle own, const System& system, const tf2::BufferCore& transforms);
 
-  void take(const Measurement& z);
-  void reset();
+  void take(SystemRun::Delivery message);
+  void restart();
 
  private:
-  bool onSolve(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   void receive();
+  bool onSolve(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
 
-  const Settings& settings_;
-  std::unique_ptr<towfish::Estimator> estimator_;
+  const System& system_;
+  std::unique_ptr<SystemRun> run_;
   EstimatePublisher publisher_;
-  std::mutex mutex_;                // of the two below: the rest belongs to the thread
-  std::vector<Measurement> taken_;  // since the last solution
-  bool anew_ = false;               // forget what came before them
+  std::mutex mutex_;  // of the next one: the rest belongs to the thread
+  std::vector<SystemRun::Delivery> waiting_;
   ros::CallbackQueue queue_;
   ros::ServiceServer service_;
+  ros::WallTimer timer_;
   ros::AsyncSpinner spinner_;
 };
 

@@ -23,6 +23,16 @@ std::optional<Transform> SensorFrames::find(const std::string& frame_id) const {
   }
 }
 
+Inbox::Inbox(const SensorFrames& frames, double timeout, const std::vector<MessageSource>& sources)
+    : frames_(frames), timeout_(timeout) {
+  for (const auto& source : sources) sources_.push_back({{}, {}, source.enabled});
+}
+
+void Inbox::restart() {
+  waiting_.clear();
+  for (auto& source : sources_) source = {{}, {}, source.enabled};
+}
+
 bool Inbox::count(const std_msgs::Header& header, std::size_t source) {
   auto& [counts, last, enabled] = sources_[source];
   ++counts.messages;

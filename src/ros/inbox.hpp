@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "ros/conversions.hpp"
+#include "ros/message_source.hpp"
+#include "ros/messages.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -35,10 +36,9 @@ class SensorFrames {
 struct MessageCounts {
   std::uint64_t messages = 0;
   std::uint64_t unknown_frame = 0;  ///< refused: no transform to the base frame came in time
-  std::uint64_t unusable = 0;       ///< without a reading
+  std::uint64_t unusable = 0;       ///< without a reading: no fix, no orientation, no bottom lock
   std::uint64_t lost = 0;           ///< gaps in header.seq
   std::uint64_t disabled = 0;       ///< left, since the source is disabled
-  bool may_fall_silent = false;     ///< of a source that is only needed at the start
   Stamp newest = 0;  ///< of the newest message, which need not have the highest stamp: a clock may be wrong
 };
 
@@ -47,8 +47,7 @@ struct MessageCounts {
 /// the way.
 class Inbox {
  public:
-  Inbox(const SensorFrames& frames, double timeout, std::size_t sources)
-      : frames_(frames), timeout_(timeout), sources_(sources) {}
+  Inbox(const SensorFrames& frames, double timeout, const std::vector<MessageSource>& sources);
 
   /// Counts a message; returns whether it is wanted. For sources without a place on the body.
   bool count(const std_msgs::Header& header, std::size_t source);
@@ -64,17 +63,18 @@ class Inbox {
       const auto T_base_sensor = frames_.find(message.header.frame_id);
       const std::optional<bool> read =
           T_base_sensor ? std::optional<bool>(convert(message, *T_base_sensor)) : std::nullopt;
-      if (read && !*read) ++sources_[source].counts.unusable;
+      if (read && !*read) countUnusable(source);
       return read.has_value();
     };
     if (!attempt()) waiting_.push_back({stampOf(message.header.stamp), source, attempt});
   }
   /// Gives up on messages that still wait for their frame. Call at the end of a bag.
   void finish();
+  /// Forgets counts and what waits; sources stay enabled or disabled.
+  void restart();
 
   /// Takes a source's messages, or only counts them.
   void enable(std::size_t source, bool enabled) { sources_[source].enabled = enabled; }
-  void mayFallSilent(std::size_t source) { sources_[source].counts.may_fall_silent = true; }
   bool enabled(std::size_t source) const { return sources_[source].enabled; }
   const MessageCounts& counts(std::size_t source) const { return sources_[source].counts; }
 

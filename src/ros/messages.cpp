@@ -72,6 +72,14 @@ sensor_msgs::NavSatFix fixAt(const Geodetic& place, ros::Time stamp, const std::
   return fix;
 }
 
+sensor_msgs::NavSatFix fixAt(const Geodetic& place, ros::Time stamp, const std::string& frame_id,
+                             const Vector<3>& variance) {
+  sensor_msgs::NavSatFix fix = fixAt(place, stamp, frame_id);
+  for (std::size_t i = 0; i < 3; ++i) fix.position_covariance[4 * i] = variance(static_cast<Eigen::Index>(i));
+  fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
+  return fix;
+}
+
 bool usableVariance(double variance) { return std::isfinite(variance) && variance > 0; }
 
 double usedVariance(double stated, double sigma, double floor, bool override_message) {

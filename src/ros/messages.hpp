@@ -43,8 +43,8 @@ geometry_msgs::TransformStamped stamped(const std::string& parent, const std::st
 
 /// A vector of the base frame in starboard, forward, up.
 inline Vector<3> bodyVectorOf(const Vector<3>& ros_body) { return bodyFromRosBody() * ros_body; }
-/// v_map = C v_body of the base frame in starboard, forward, up, from the orientation of the sensor at T_base_imu; nothing
-/// where the message has none.
+/// v_map = C v_body of the base frame in starboard, forward, up, from the orientation of the sensor at T_base_imu;
+/// nothing where the message has none.
 std::optional<Matrix<3>> rotationOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu);
 /// The orientation in REP-103's axes of such a rotation.
 inline Eigen::Quaterniond orientationOf(const Matrix<3>& C_map_body) {
@@ -56,6 +56,9 @@ bool hasPosition(const sensor_msgs::NavSatFix& fix);
 Geodetic geodeticOf(const sensor_msgs::NavSatFix& fix);
 /// A fix at a place, its covariance unknown.
 sensor_msgs::NavSatFix fixAt(const Geodetic& place, ros::Time stamp, const std::string& frame_id);
+/// The same with variances east, north and up [m^2].
+sensor_msgs::NavSatFix fixAt(const Geodetic& place, ros::Time stamp, const std::string& frame_id,
+                             const Vector<3>& variance);
 
 bool usableVariance(double variance);
 /// The variance that is taken of a message's: its own where usable, else the sensor's; not below the floor.

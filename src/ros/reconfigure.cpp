@@ -15,36 +15,38 @@ bool take(const std::string& name, double& tuning, Loss& loss) {
   return true;
 }
 
-void show(const Loss& loss, std::string& name, double& tuning) {
+void showLoss(const Loss& loss, std::string& name, double& tuning) {
   name = lossName(loss.kind());
   tuning = loss.tuning();
 }
 
 }  // namespace
 
-Reconfigure::Reconfigure(const ros::NodeHandle& own, const towfish::Config& config, Changed changed)
-    : config_(config), changed_(std::move(changed)), server_(mutex_, own) {
+Reconfigure::Reconfigure(const ros::NodeHandle& own, const Tuning& tuning, Changed changed)
+    : tuning_(tuning), changed_(std::move(changed)), server_(mutex_, own) {
   EstimatorsConfig shown = EstimatorsConfig::__getDefault__();
-  show(config.robust_kf.loss, shown.robust_kf_loss, shown.robust_kf_tuning);
-  show(config.fixed_lag.loss, shown.fixed_lag_loss, shown.fixed_lag_tuning);
-  shown.gated_kf_probability = config.gated_kf.probability;
+  show(shown);
   server_.updateConfig(shown);
   server_.setCallback([this](EstimatorsConfig& wanted, std::uint32_t) { onChange(wanted); });
 }
 
+void Reconfigure::show(EstimatorsConfig& shown) const {
+  showLoss(tuning_.robust_kf, shown.robust_kf_loss, shown.robust_kf_tuning);
+  showLoss(tuning_.fixed_lag, shown.fixed_lag_loss, shown.fixed_lag_tuning);
+  shown.gated_kf_probability = tuning_.gated_kf_probability;
+}
+
 void Reconfigure::onChange(EstimatorsConfig& wanted) {
   try {
-    towfish::Config next = config_;
-    bool different = take(wanted.robust_kf_loss, wanted.robust_kf_tuning, next.robust_kf.loss);
-    different = take(wanted.fixed_lag_loss, wanted.fixed_lag_tuning, next.fixed_lag.loss) || different;
-    different = wanted.gated_kf_probability != next.gated_kf.probability || different;
-    next.gated_kf.probability = wanted.gated_kf_probability;
-    if (different) changed_(config_ = next);
+    Tuning next = tuning_;
+    bool different = take(wanted.robust_kf_loss, wanted.robust_kf_tuning, next.robust_kf);
+    different = take(wanted.fixed_lag_loss, wanted.fixed_lag_tuning, next.fixed_lag) || different;
+    different = wanted.gated_kf_probability != next.gated_kf_probability || different;
+    next.gated_kf_probability = wanted.gated_kf_probability;
+    if (different) changed_(tuning_ = next);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR("dynamic_reconfigure: %s", error.what());
-    show(config_.robust_kf.loss, wanted.robust_kf_loss, wanted.robust_kf_tuning);
-    show(config_.fixed_lag.loss, wanted.fixed_lag_loss, wanted.fixed_lag_tuning);
-    wanted.gated_kf_probability = config_.gated_kf.probability;
+    show(wanted);
   }
 }
 

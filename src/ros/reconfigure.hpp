@@ -7,23 +7,24 @@
 
 #include <functional>
 
-#include "sas_motion/systems/towfish/config.hpp"
+#include "sas_motion/session/session.hpp"
 
 namespace sas_motion::ros_side {
 
-/// Losses, their tuning and the gate by dynamic_reconfigure. It starts with the configuration given, not with values of
+/// Losses, their tuning and the gate by dynamic_reconfigure. It starts with the tuning given, not with values of
 /// an earlier run.
 class Reconfigure {
  public:
-  using Changed = std::function<void(const towfish::Config&)>;
+  using Changed = std::function<void(const Tuning&)>;
 
-  /// Calls `changed` with a configuration in which one of them differs from before.
-  Reconfigure(const ros::NodeHandle& own, const towfish::Config& config, Changed changed);
+  /// Calls `changed` with a tuning in which one of them differs from before.
+  Reconfigure(const ros::NodeHandle& own, const Tuning& tuning, Changed changed);
 
  private:
   void onChange(EstimatorsConfig& wanted);
+  void show(EstimatorsConfig& shown) const;
 
-  towfish::Config config_;
+  Tuning tuning_;
   Changed changed_;
   boost::recursive_mutex mutex_;
   dynamic_reconfigure::Server<EstimatorsConfig> server_;

@@ -1,14 +1,44 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the nodelets do on request. All but ~solve_batch, see batch_solver.hpp.
-#include <fmt/format.h>
-
+// What the server does on request. All but ~solve_batch, see batch_solver.hpp.
+#include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "ros/estimator_server.hpp"
+#include "ros/server.hpp"
+#include "ros/serving.hpp"
 
 namespace sas_motion::ros_side {
+namespace {
+
+/// The state that a request sets. Throws std::invalid_argument where it is none.
+StateRequest stateOf(const SetState::Request& request) {
+  using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  StateRequest state{stampOf(request.stamp), Eigen::Map<const Vector<6>>(request.state.data()), {}};
+  Matrix<6>& P = state.covariance;
+  if (request.covariance.size() == 36)
+    P = Eigen::Map<const RowMajor>(request.covariance.data());
+  else if (request.covariance.size() == 6)
+    P = Eigen::Map<const Vector<6>>(request.covariance.data()).cwiseAbs2().asDiagonal();
+  else
+    throw std::invalid_argument(fmt::format("covariance has {} numbers; give 36, row-major, or 6 standard deviations",
+                                            request.covariance.size()));
+  if (!state.state.allFinite() || state.state.cwiseAbs().maxCoeff() > 1e9)
+    throw std::invalid_argument("state is not finite");
+  const double asymmetry = (P - P.transpose()).cwiseAbs().maxCoeff();
+  if (!P.allFinite() || asymmetry > 1e-9 * P.cwiseAbs().maxCoeff() || P.llt().info() != Eigen::Success)
+    throw std::invalid_argument("covariance is not symmetric and positive definite");
+  return state;
+}
+
+template <class Response>
+bool answer(Response& response, bool success, const std::string& message) {
+  response.success = success;
+  response.message = message;
+  return true;
+}
+
+}  // namespace
 
 void EstimatorServer::advertiseServices() {
   services_ = {own_.advertiseService("reset", &EstimatorServer::onReset, this),
@@ -20,88 +50,74 @@ void EstimatorServer::advertiseServices() {
 
 bool EstimatorServer::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   startAnew();
-  response.success = true;
-  response.message = "estimators start anew";
-  return true;
+  return answer(response, true, "estimators start anew");
 }
 
 bool EstimatorServer::onSetDatum(SetDatum::Request& request, SetDatum::Response& response) {
+  const Geodetic datum{request.latitude, request.longitude, request.altitude};
   try {
-    const LocalFrame frame({request.latitude, request.longitude, request.altitude});
-    settings_.datum = frame.datum();
-    startAnew();
-    ingest_->setDatum(frame.datum());
-    publishDatum();
-    response.success = true;
-    response.message = "datum set, estimators start anew";
+    const LocalFrame valid(datum);
   } catch (const std::invalid_argument& error) {
-    response.success = false;
-    response.message = error.what();
+    return answer(response, false, error.what());
   }
-  return true;
+  const bool anew = run_->session().positionsAreOfMap();
+  system_->map.datum = datum;
+  if (anew) startAnew();
+  run_->setDatum(datum);
+  if (batch_) batch_->take([datum](SystemRun& run) { run.setDatum(datum); });
+  datum_published_ = false;
+  publishDatum();
+  return answer(response, true, anew ? "datum set, estimators start anew" : "datum set");
 }
 
 bool EstimatorServer::onSetState(SetState::Request& request, SetState::Response& response) {
-  response.success = false;
-  response.message = "no such estimator";
-  Estimate state;
-  state.stamp = stampOf(request.stamp);
+  StateRequest state;
   try {
-    state.belief = beliefOf(request);
+    state = stateOf(request);
   } catch (const std::invalid_argument& error) {
-    response.message = error.what();
-    return true;
+    return answer(response, false, error.what());
   }
+  bool any = false;
   std::string refused;
-  for (auto& lane : lanes_) {
-    if (!request.estimator.empty() && request.estimator != lane.name) continue;
-    const std::string reason = setState(lane, state);
-    if (reason.empty()) response.success = true;
-    if (!reason.empty()) refused += fmt::format("{}{}: {}", refused.empty() ? "" : "; ", lane.name, reason);
-    response.message = refused;
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    if (!request.estimator.empty() && request.estimator != lanes_[i].name) continue;
+    any = true;
+    const std::string reason = run_->session().setState(i, run_->frame(), state);
+    if (!reason.empty()) refused += fmt::format("{}{}: {}", refused.empty() ? "" : "; ", lanes_[i].name, reason);
+    if (reason.empty()) publishNow(i);
   }
-  response.success = response.success && refused.empty();
-  return true;
-}
-
-/// Returns why not, or nothing.
-std::string EstimatorServer::setState(Lane& lane, Estimate state) {
-  if (state.stamp == 0) {
-    const auto newest = lane.estimator->current();
-    if (!newest) return "there is no estimate yet, so give a stamp";
-    state.stamp = newest->stamp;
-  }
-  const char* reason = lane.estimator->setState(state, output_);
-  queueSettled(lane);
-  if (reason) return reason;
-  open_ = true;
-  publishNow(lane);
-  return "";
+  queueSettled();
+  open_ = open_ || any;
+  return answer(response, any && refused.empty(), any ? refused : "no such estimator");
 }
 
 bool EstimatorServer::onEnableSensor(EnableSensor::Request& request, EnableSensor::Response& response) {
-  return enableSensor(
-      Ingest::kNames,
-      [this](std::size_t source, bool enabled) { ingest_->enable(static_cast<Ingest::Source>(source), enabled); },
-      request, response);
+  const auto& sources = run_->sources();
+  std::vector<std::string> names;
+  for (const auto& source : sources) names.push_back(source.name);
+  const auto found = std::find(names.begin(), names.end(), request.sensor);
+  if (found == names.end())
+    return answer(response, false,
+                  fmt::format("'{}' is no sensor; known are {}", request.sensor, fmt::join(names, ", ")));
+  const auto enable = [source = static_cast<std::size_t>(found - names.begin()),
+                       enabled = request.enabled != 0](SystemRun& run) { run.inbox().enable(source, enabled); };
+  enable(*run_);
+  if (batch_) batch_->take(enable);
+  return answer(response, true, "");
 }
 
 bool EstimatorServer::onGetStateAt(GetStateAt::Request& request, GetStateAt::Response& response) {
-  response.success = false;
-  response.message = "no such estimator";
-  for (const auto& lane : lanes_) {
-    if (!request.estimator.empty() && request.estimator != lane.name) continue;
-    const auto estimate = lane.estimator->at(stampOf(request.stamp));
-    response.success = estimate.has_value();
-    response.message =
-        estimate ? "" : "the stamp is older than the lag, or the estimator has not started or keeps no history";
-    if (estimate) {
-      response.odometry = odometryOf(*estimate, settings_);
-      response.current = currentOf(*estimate, settings_);
-    }
-    break;
-  }
-  return true;
+  const auto found =
+      request.estimator.empty() ? names_.begin() : std::find(names_.begin(), names_.end(), request.estimator);
+  if (found == names_.end()) return answer(response, false, "no such estimator");
+  const auto lane = static_cast<std::size_t>(found - names_.begin());
+  const auto solution = run_->session().at(lane, run_->frame(), stampOf(request.stamp));
+  if (!solution)
+    return answer(response, false,
+                  "the stamp is older than the lag or far ahead, or the estimator has not started or keeps no history");
+  response.odometry = odometryOf(*solution, system_->map);
+  if (solution->current) response.current = currentOf(*solution, system_->map);
+  return answer(response, true, "");
 }
 
 }  // namespace sas_motion::ros_side

@@ -11,7 +11,10 @@
 
 #include "bag/bag_reader.hpp"
 #include "bag/topics.hpp"
-#include "ros/conversions.hpp"
+#include <nav_msgs/Odometry.h>
+
+#include "ros/messages.hpp"
+#include "sas_motion/estimate/solution.hpp"
 
 namespace sas_motion {
 
@@ -21,7 +24,6 @@ using imaging::TimedPose;
 namespace {
 
 const std::string kTruth = "truth/odometry", kLeaf = "/odometry";
-constexpr double kNotEstimated = 1e6;  // variance of what an odometry does not have
 
 std::optional<TimedPose> poseOf(const nav_msgs::Odometry& odometry) {
   const auto& p = odometry.pose.pose.position;

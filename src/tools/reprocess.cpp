@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // reprocess IN.bag...: estimators over recorded bags.
-#include "bag/reprocess.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +18,7 @@
 
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/io/fingerprint.hpp"
+#include "systems/registry.hpp"
 #include "tools/main_guard.hpp"
 #include "tools/progress.hpp"
 
@@ -54,14 +54,14 @@ json toJson(const ReprocessReport& report) {
     entry["results"][name] = {{"estimates", e.estimates},       {"accepted", e.verdicts[0]},
                               {"down_weighted", e.verdicts[1]}, {"rejected", e.verdicts[2]},
                               {"stale", e.verdicts[3]},         {"invalid", e.verdicts[4]}};
-  if (!report.remarks.empty()) entry["remarks"] = report.remarks;
+  if (!report.warnings.empty()) entry["remarks"] = report.warnings;
   return entry;
 }
 
 json costOf(const ReprocessReport& report) {
   json cost;
   for (const auto& [name, e] : report.estimators)
-    cost[name] = {{"seconds", e.seconds}, {"measurements", e.measurements}, {"duration", report.duration}};
+    cost[name] = {{"seconds", e.lane.seconds}, {"measurements", e.lane.measurements}, {"duration", report.duration}};
   return cost;
 }
 
@@ -77,14 +77,14 @@ void printReport(const ReprocessReport& report) {
   for (const auto& [name, e] : report.estimators)
     fmt::print("  {:<14}{:>9} estimates, {} accepted, {} down-weighted, {} rejected, {} stale, {} invalid\n", name,
                e.estimates, e.verdicts[0], e.verdicts[1], e.verdicts[2], e.verdicts[3], e.verdicts[4]);
-  for (const auto& remark : report.remarks) fmt::print("  {}\n", remark);
+  for (const auto& warning : report.warnings) fmt::print("  {}\n", warning);
 }
 
 /// A smoother that found no answer is an error, though the other estimators' results stand.
 void requireAnswers(const ReprocessReport& report) {
   for (const auto& [name, e] : report.estimators)
-    if (!e.failure.empty())
-      throw std::runtime_error(fmt::format("{}: {} found no answer: {}", report.input, name, e.failure));
+    if (!e.lane.failure.empty())
+      throw std::runtime_error(fmt::format("{}: {} found no answer: {}", report.input, name, e.lane.failure));
 }
 
 /// The manifest of a folder, rewritten whole after each bag.
@@ -110,30 +110,27 @@ class Manifest {
   json all_;
 };
 
-/// The outputs of two estimators, or of two bags, must not have the same name.
-void requireDistinct(const Options& options) {
-  std::set<std::string> names, files;
-  for (const auto& name : options.estimators)
-    if (!names.insert(name).second)
-      throw std::runtime_error(fmt::format("--estimators: '{}' is there twice; name each once", name));
-  for (const auto& bag : options.bags)
+/// The outputs of two bags must not have the same name.
+void requireDistinct(const std::vector<std::string>& bags) {
+  std::set<std::string> files;
+  for (const auto& bag : bags)
     if (!files.insert(std::filesystem::path(bag).filename()).second)
       throw std::runtime_error(
           fmt::format("{}: another bag of this name is among the inputs; reprocess it into another folder", bag));
 }
 
-void requireKnown(const std::vector<std::string>& estimators, const ReprocessSystem& system) {
+void requireKnown(const std::vector<std::string>& estimators, const System& system) {
   try {
-    for (const auto& name : estimators) system.require(name);
+    system.require(estimators);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("--estimators: {}", error.what()));
   }
 }
 
 void run(const Options& options) {
-  const auto system = makeReprocessSystem(options.config);
+  const auto system = openSystem(options.config);
   requireKnown(options.estimators, *system);
-  requireDistinct(options);
+  requireDistinct(options.bags);
   double duration = 0;
   for (const auto& bag : options.bags) {
     const BagReader source(bag);

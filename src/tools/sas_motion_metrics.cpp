@@ -15,6 +15,7 @@
 #include "bag/recording.hpp"
 #include "bag/tum.hpp"
 #include "sas_motion/math/statistics.hpp"
+#include "sas_motion/systems/towfish/solution.hpp"
 #include "tools/main_guard.hpp"
 
 namespace {
@@ -26,7 +27,6 @@ using nlohmann::json;
 
 constexpr std::size_t kMostPoints = 6000;  // of one plotted series
 constexpr double kShortestOutage = 30;     // a gap between fixes that is reported as an outage [s]
-constexpr double kNotEstimated = 1e6;      // variance of what an estimator does not have
 constexpr double kAligned = 2;             // a heading that is off by less is aligned [deg],
 constexpr double kAlignedFor = 30;         // where it stays so to the end, for this time at least [s]
 
@@ -93,8 +93,8 @@ class Judge {
       truth->heading_known &= estimate.belief.covariance(kHeading, kHeading) < kNotEstimated;
       truth->speed_known &= estimate.belief.covariance(kSpeed, kSpeed) < kNotEstimated;
       scorer.add(estimate, *truth);
-      tum.write(estimate);
-      truth_tum.write({estimate.stamp, {truth->state, StateMatrix::Identity()}});
+      tum.write(solutionOf(estimate, nullptr));
+      truth_tum.write(solutionOf({estimate.stamp, {truth->state, StateMatrix::Identity()}}, nullptr));
     }
     for (const auto& motion : estimator.motions)
       if (const auto truth = recording_.motionAt(motion.stamp); truth && motion.stamp >= from)

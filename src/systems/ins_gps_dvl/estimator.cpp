@@ -12,8 +12,9 @@ namespace {
 template <class Filter>
 class NavigatorEstimator final : public Estimator {
  public:
-  NavigatorEstimator(const Filter& filter, const NavigatorOptions& options, const Config& config, Source source)
-      : filter_(filter), options_(options), config_(config), source_(source) {}
+  NavigatorEstimator(FilterKind kind, const Filter& filter, const NavigatorOptions& options, const Config& config,
+                     Source source)
+      : kind_(kind), filter_(filter), options_(options), config_(config), source_(source) {}
 
   void start(const NavigationState& state, Stamp stamp) override {
     navigator_.emplace(filter_, config_.parameters, state, stamp, options_);
@@ -28,9 +29,19 @@ class NavigatorEstimator final : public Estimator {
     if (const auto solution = solutionOf(*navigator_, source_)) output.solutions.push_back(*solution);
     return verdict;
   }
+  void configure(const Config& config) override {
+    config_ = config;
+    withFilter(kind_, config, [this](const auto& filter, const NavigatorOptions&) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(filter)>, Filter>) {
+        filter_ = filter;
+        if (navigator_) navigator_->use(filter);
+      }
+    });
+  }
   std::unique_ptr<Estimator> clone() const override { return std::make_unique<NavigatorEstimator>(*this); }
 
  private:
+  FilterKind kind_;
   Filter filter_;
   NavigatorOptions options_;
   Config config_;
@@ -60,8 +71,8 @@ std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& 
   if (!found) return nullptr;
   std::unique_ptr<Estimator> estimator;
   withFilter(found->filter, config, [&](const auto& filter, const NavigatorOptions& options) {
-    estimator =
-        std::make_unique<NavigatorEstimator<std::decay_t<decltype(filter)>>>(filter, options, config, found->source);
+    estimator = std::make_unique<NavigatorEstimator<std::decay_t<decltype(filter)>>>(found->filter, filter, options,
+                                                                                     config, found->source);
   });
   return estimator;
 }

@@ -68,7 +68,8 @@ void Head::take(const Readings& open, std::size_t place) {
   last_checkpoint_ = stamp;
 }
 
-std::optional<NavigationSolution> Head::at(const Estimator& settled, const Readings& open, Stamp stamp, double furthest) const {
+std::optional<NavigationSolution> Head::at(const Estimator& settled, const Readings& open, Stamp stamp,
+                                           double furthest) const {
   if (!estimator_) return std::nullopt;
   const Checkpoint* from = nullptr;
   for (const auto& checkpoint : checkpoints_)
@@ -90,38 +91,53 @@ std::optional<NavigationSolution> Head::at(const Estimator& settled, const Readi
   return solution && solution->stamp == stamp ? solution : std::nullopt;
 }
 
-ReadingQueue::Answer LiveSession::process(const Reading& reading) {
-  const std::size_t before = session_.queue().open().size();
-  const auto answer = session_.process(reading);
+ReadingQueue::Answer LiveRun::process(const Reading& reading) {
+  if (!keeps_present_) return run_.process(reading);
+  const std::size_t before = run_.queue().open().size();
+  const auto answer = run_.process(reading);
   const bool taken = answer == ReadingQueue::Answer::Taken;
-  const std::size_t now = session_.queue().open().size(),
+  const std::size_t now = run_.queue().open().size(),
                     settled = answer == ReadingQueue::Answer::ClockSet ? 0 : before + (taken ? 1 : 0) - now;
-  session_.feed();
+  run_.feed();
   for (std::size_t lane = 0; lane < heads_.size(); ++lane) update(lane, taken, settled);
   return answer;
 }
 
-void LiveSession::update(std::size_t lane, bool taken, std::size_t settled) {
-  const auto& of = session_.lanes()[lane];
-  const auto& open = session_.queue().open();
+void LiveRun::update(std::size_t lane, bool taken, std::size_t settled) {
+  const auto& of = run_.lanes()[lane];
+  const auto& open = run_.queue().open();
   Head& head = heads_[lane];
-  if (!session_.alignment().started() || !of.estimator) return head.forget();
-  const bool anew = starts_[lane] != of.starts || (taken && session_.queue().place() < settled);
+  if (!run_.alignment().started() || !of.estimator) return head.forget();
+  const bool anew = starts_[lane] != of.starts || (taken && run_.queue().place() < settled);
   starts_[lane] = of.starts;
   if (anew) return head.restart(*of.estimator, open);
   head.settle(settled);
-  if (taken) head.insert(*of.estimator, open, session_.queue().place() - settled);
+  if (taken) head.insert(*of.estimator, open, run_.queue().place() - settled);
 }
 
-void LiveSession::finish() {
-  const std::size_t settled = session_.queue().open().size();
-  session_.finish();
+void LiveRun::finish() {
+  const std::size_t settled = run_.queue().open().size();
+  run_.finish();
+  if (!keeps_present_) return;
   for (std::size_t lane = 0; lane < heads_.size(); ++lane) update(lane, false, settled);
 }
 
-std::optional<NavigationSolution> LiveSession::at(std::size_t lane, Stamp stamp) const {
-  const auto& of = session_.lanes()[lane];
-  return of.estimator ? heads_[lane].at(*of.estimator, session_.queue().open(), stamp, kFurthest) : std::nullopt;
+void LiveRun::startAt(std::size_t lane, const Start& start) {
+  const std::size_t before = run_.queue().open().size();
+  run_.startAt(lane, start);
+  const std::size_t settled = before - run_.queue().open().size();
+  for (std::size_t i = 0; i < heads_.size(); ++i) update(i, false, settled);
+}
+
+void LiveRun::configure(const Config& config) {
+  run_.configure(config);
+  for (std::size_t i = 0; i < heads_.size(); ++i)
+    if (const auto& estimator = run_.lanes()[i].estimator) heads_[i].restart(*estimator, run_.queue().open());
+}
+
+std::optional<NavigationSolution> LiveRun::at(std::size_t lane, Stamp stamp) const {
+  const auto& of = run_.lanes()[lane];
+  return of.estimator ? heads_[lane].at(*of.estimator, run_.queue().open(), stamp, kFurthest) : std::nullopt;
 }
 
 }  // namespace sas_motion::ins

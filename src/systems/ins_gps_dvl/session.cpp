@@ -2,108 +2,139 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/systems/ins_gps_dvl/session.hpp"
 
-#include <fmt/format.h>
+#include <cmath>
 
-#include <stdexcept>
-
-#include "sas_motion/io/cpu_time.hpp"
+#include "sas_motion/navigation/attitude.hpp"
 
 namespace sas_motion::ins {
+namespace {
 
-Session::Session(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory)
-    : options_(options),
-      factory_(std::move(factory)),
-      queue_(options.lag, options.max_gap),
-      alignment_(options.alignment, options.config.parameters) {
-  for (const auto& name : names) {
-    if (!factory_(name, options.config))
-      throw std::invalid_argument(fmt::format("'{}' is no estimator of this system", name));
-    lanes_.push_back({name, nullptr, {}});
+std::optional<Solution> inFrame(const std::optional<NavigationSolution>& solution, const OutputFrame& frame) {
+  if (!solution || !frame.map) return std::nullopt;
+  return solutionOf(movedBy(*solution, frame.base_lever_body), *frame.map);
+}
+
+Geodetic placeOf(const NavigationState& state) {
+  return {state.latitude / kRadPerDeg, state.longitude / kRadPerDeg, state.height};
+}
+
+/// The start that a user sets: position, heading and horizontal velocity are the request's, height and tilt those of
+/// the solution at its stamp.
+Start startOf(const NavigationSolution& solution, const OutputFrame& frame, const StateRequest& request,
+              const Parameters& parameters) {
+  const Vector<6>& x = request.state;
+  const auto sigma = [&](int i) { return std::sqrt(request.covariance(i, i)); };
+  Start start{movedBy(solution, frame.base_lever_body).state, solution.stamp, parameters};
+  NavigationState& state = start.state;
+  const Vector<3> forward = state.q_nav_body * Vector<3>::UnitY();
+  const double turned = wrapAngle(x(4) - std::atan2(forward.y(), forward.x()));
+  state.q_nav_body = Eigen::AngleAxisd(turned, Vector<3>::UnitZ()) * state.q_nav_body;
+  state.velocity_nav.head<2>() = x.segment<2>(2) + x(5) * Vector<2>(std::cos(x(4)), std::sin(x(4)));
+  const double height_map = frame.map->position_enu(placeOf(state)).z();
+  const Geodetic place = frame.map->geodetic({x(0), x(1), height_map});
+  state.latitude = place.latitude_deg * kRadPerDeg;
+  state.longitude = place.longitude_deg * kRadPerDeg;
+  displace(state, -(state.q_nav_body * frame.base_lever_body));
+
+  Parameters& p = start.parameters;
+  p.start_position.head<2>() << sigma(0), sigma(1);
+  p.start_heading = sigma(4);
+  p.start_velocity = std::hypot(sigma(5), std::max(sigma(2), sigma(3)));
+  if (solution.covariance) {
+    const Vector<9> variance = solution.covariance->diagonal();
+    p.start_position.z() = std::sqrt(variance(kPosition + 2));
+    p.start_tilt = std::sqrt(variance.segment<2>(kAttitude).maxCoeff());
   }
+  return start;
 }
 
-ReadingQueue::Answer Session::process(const Reading& reading) {
-  const auto answer = queue_.insert(reading);
-  if (answer == ReadingQueue::Answer::ClockSet)
-    startAnew();
-  else if (answer != ReadingQueue::Answer::Taken)
-    refuse(reading, answer);
-  while (queue_.settles()) alignment_.take(queue_.takeFirst(), events_);
-  return answer;
-}
+}  // namespace
 
-void Session::refuse(const Reading& reading, ReadingQueue::Answer answer) {
-  using Answer = ReadingQueue::Answer;
-  const auto* aiding = std::get_if<Aiding>(&reading);
-  if (aiding && answer == Answer::Late) events_.push_back(refusal(*aiding, Verdict::Stale, "older than the lag"));
-  if (aiding && answer == Answer::Duplicate) events_.push_back(refusal(*aiding, Verdict::Invalid, "duplicate stamp"));
-  if (aiding && answer == Answer::Far)
-    events_.push_back(refusal(*aiding, Verdict::Invalid, "stamp far ahead of the others"));
-  if (!std::holds_alternative<InertialReading>(reading)) return;
-  inertial_.late += answer == Answer::Late;
-  inertial_.duplicate += answer == Answer::Duplicate;
-  inertial_.far += answer == Answer::Far;
-}
-
-void Session::settleAll() {
-  while (!queue_.open().empty()) alignment_.take(queue_.takeFirst(), events_);
-}
-
-void Session::startAnew() {
-  settleAll();
-  queue_.restart();
-  alignment_ = Alignment(options_.alignment, options_.config.parameters);
-}
-
-void Session::feed() {
-  for (auto& lane : lanes_) {
-    const double begin = cpuSeconds();
-    for (const auto& event : events_) feed(lane, event);
-    lane.seconds += cpuSeconds() - begin;
+Solution solutionOf(const NavigationSolution& base, const LocalFrame& map) {
+  const NavigationState& state = base.state;
+  const Geodetic place = placeOf(state);
+  const Matrix<3> C_map_nav = map.C_map_nav(place), C_map_body = C_map_nav * state.q_nav_body.toRotationMatrix();
+  const Matrix<3> C_base_body = bodyFromRosBody().transpose(),
+                  C_base_nav = C_base_body * state.q_nav_body.conjugate().toRotationMatrix();
+  Solution solution;
+  solution.stamp = base.stamp;
+  solution.position_map = map.position_enu(place);
+  solution.place = place;
+  solution.q_map_base = Eigen::Quaterniond(C_map_body * bodyFromRosBody());
+  if (base.has_velocity) solution.velocity_base = C_base_nav * state.velocity_nav;
+  if (base.rate_body) solution.rate_base = C_base_body * *base.rate_body;
+  auto &pose = solution.pose_covariance, &twist = solution.twist_covariance;
+  if (base.covariance) {
+    Matrix<6, 9> J = Matrix<6, 9>::Zero();  // of position and rotation in map
+    J.block<3, 3>(0, kPosition) = C_map_nav;
+    J.block<3, 3>(3, kAttitude) = -C_map_nav;
+    pose = J * *base.covariance * J.transpose();
+    Matrix<3, 9> V = Matrix<3, 9>::Zero();  // of the velocity in the base: C'^T v' = C^T (v - v x phi)
+    V.block<3, 3>(0, kVelocity) = C_base_nav;
+    V.block<3, 3>(0, kAttitude) = -C_base_nav * skew(state.velocity_nav);
+    twist.topLeftCorner<3, 3>() = V * *base.covariance * V.transpose();
+    solution.place_covariance = base.covariance->block<3, 3>(kPosition, kPosition);
   }
-  events_.clear();
+  if (!base.has_attitude) pose.diagonal().tail<3>().setConstant(kNotEstimated);
+  if (!base.has_velocity) twist.diagonal().head<3>().setConstant(kNotEstimated);
+  if (!base.rate_body) twist.diagonal().tail<3>().setConstant(kNotEstimated);
+  return solution;
 }
 
-void Session::feed(Lane& lane, const Event& event) {
-  if (const auto* audit = std::get_if<Audit>(&event)) {
-    lane.output.audits.push_back(*audit);
-  } else if (const auto* start = std::get_if<Start>(&event)) {
-    if (lane.estimator) lane.estimator->finish(lane.output);
-    Config config = options_.config;
-    config.parameters = start->parameters;
-    lane.estimator = factory_(lane.name, config);
-    lane.estimator->start(start->state, start->stamp);
-    ++lane.starts;
-    if (&lane == &lanes_.front()) last_integrated_.reset();
-  } else if (const auto* aiding = std::get_if<Aiding>(&event)) {
-    lane.estimator->process(*aiding, lane.output);
-    ++lane.readings;
-  } else {
-    const auto& reading = std::get<ImuReading>(event);
-    const ImuVerdict verdict = lane.estimator->process(reading, lane.output);
-    if (&lane == &lanes_.front()) count(reading, verdict);
-  }
+NavigationSession::NavigationSession(const SessionOptions& options, const std::vector<std::string>& names,
+                                     const EstimatorFactory& make, double output_rate, bool live)
+    : sas_motion::Session(names), options_(options), make_(make), output_rate_(output_rate), keeps_present_(live) {
+  reset();
 }
 
-void Session::count(const ImuReading& reading, ImuVerdict verdict) {
-  ++inertial_.verdicts[static_cast<std::size_t>(verdict)];
-  if (verdict == ImuVerdict::OutOfOrder || verdict == ImuVerdict::Implausible) return;
-  if (last_integrated_) {
-    const double dt = secondsBetween(*last_integrated_, reading.stamp);
-    inertial_.longest_gap = std::max(inertial_.longest_gap, dt);
-    inertial_.mean_period += (dt - inertial_.mean_period) / static_cast<double>(++intervals_);
-  }
-  last_integrated_ = reading.stamp;
+void NavigationSession::reset() {
+  live_ = std::make_unique<LiveRun>(options_, names(), make_, keeps_present_);
+  settled_rates_.assign(names().size(), OutputRate(output_rate_));
 }
 
-void Session::finish() {
-  settleAll();
-  feed();
-  for (auto& lane : lanes_) {
-    const double begin = cpuSeconds();
-    if (lane.estimator) lane.estimator->finish(lane.output);
-    lane.seconds += cpuSeconds() - begin;
-  }
+void NavigationSession::process(const Reading& reading) { live_->process(reading); }
+
+void NavigationSession::feed() { live_->run().feed(); }
+
+void NavigationSession::finish() { live_->finish(); }
+
+void NavigationSession::takeSettled(std::size_t lane, const OutputFrame& frame, sas_motion::Output& output) {
+  auto& settled = live_->run().lanes()[lane].output;
+  for (const auto& solution : settled.solutions)  // nothing starts without a fix, so that there is a map
+    if (settled_rates_[lane].due(solution.stamp)) output.solutions.push_back(*inFrame(solution, frame));
+  output.audits.insert(output.audits.end(), settled.audits.begin(), settled.audits.end());
+  settled.clear();
 }
+
+std::optional<Solution> NavigationSession::current(std::size_t lane, const OutputFrame& frame) const {
+  return inFrame(live_->current(lane), frame);
+}
+
+std::optional<Solution> NavigationSession::at(std::size_t lane, const OutputFrame& frame, Stamp stamp) const {
+  return inFrame(live_->at(lane, stamp), frame);
+}
+
+std::string NavigationSession::setState(std::size_t lane, const OutputFrame& frame, const StateRequest& request) {
+  if (!frame.map) return "the datum of the map is not known yet";
+  const auto solution = request.stamp == 0 ? live_->current(lane) : live_->at(lane, request.stamp);
+  if (!solution)
+    return "the stamp is older than the lag or far ahead, or the estimator has not started or keeps no present state; "
+           "height and tilt at the stamp come from it";
+  live_->startAt(lane, startOf(*solution, frame, request, options_.config.parameters));
+  return "";
+}
+
+void NavigationSession::configure(const Tuning& tuning) {
+  options_.config.robust_kf.loss = tuning.robust_kf;
+  options_.config.fixed_lag.loss = tuning.fixed_lag;
+  live_->configure(options_.config);
+}
+
+LaneReport NavigationSession::report(std::size_t index) const {
+  const Lane& lane = run().lanes()[index];
+  return {lane.readings, lane.seconds, lane.estimator ? lane.estimator->failure() : ""};
+}
+
+Tuning tuningOf(const Config& config) { return {config.robust_kf.loss, config.fixed_lag.loss, 0.99}; }
 
 }  // namespace sas_motion::ins

@@ -33,7 +33,10 @@ const NamedFilter* findFilter(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-Config startedAt(Config config, const ins::Parameters& found) {
+Config startedAt(Config config, const ins::Config& other) {
+  const ins::Parameters& found = other.parameters;
+  config.robust_kf = other.robust_kf;
+  config.fixed_lag = other.fixed_lag;
   Parameters& p = config.parameters;
   p.start_position = found.start_position;
   p.start_velocity = found.start_velocity;
@@ -56,6 +59,8 @@ ins::Config inSmallAngles(const Config& config) {
   ins::Config other;
   other.parameters = inSmallAngles(config.parameters);
   other.imu = config.imu;
+  other.robust_kf = config.robust_kf;
+  other.fixed_lag = config.fixed_lag;
   return other;
 }
 

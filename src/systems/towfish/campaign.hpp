@@ -38,8 +38,6 @@ struct Campaign {
   Scenario scenarioUnder(const CampaignLaw& law) const;
 };
 
-using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string& name, const Config& config)>;
-
 /// The name of the reference that is told the true variance of each row and of each draw of process noise: a Kalman
 /// filter.
 constexpr const char* kOracle = "oracle_kf";

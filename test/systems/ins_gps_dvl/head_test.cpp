@@ -17,7 +17,7 @@ bool same(const NavigationSolution& a, const NavigationSolution& b) {
          a.state.q_nav_body.coeffs() == b.state.q_nav_body.coeffs() && *a.covariance == *b.covariance;
 }
 
-void feed(LiveSession& live, const std::vector<Reading>& stream) {
+void feed(LiveRun& live, const std::vector<Reading>& stream) {
   for (const auto& reading : stream) live.process(reading);
 }
 
@@ -30,7 +30,7 @@ std::vector<Reading> until(std::vector<Reading> stream, double time) {
 TEST(InsHead, ThePresentIsWhatSettlesLater) {
   const Scenario scenario = surveyOf(40);
   const auto stream = streamOf(scenario, 1);
-  LiveSession live(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  LiveRun live(optionsOf(scenario), {"ckf27"}, makeEstimator);
   std::vector<NavigationSolution> present;
   for (const auto& reading : stream) {
     live.process(reading);
@@ -38,7 +38,7 @@ TEST(InsHead, ThePresentIsWhatSettlesLater) {
       present.push_back(*live.current(0));
   }
   live.finish();
-  const auto& solutions = live.session().lanes()[0].output.solutions;
+  const auto& solutions = live.run().lanes()[0].output.solutions;
   ASSERT_GT(present.size(), 3600u);
   ASSERT_LT(present.size(), solutions.size());  // it is there a lag after the start
   for (std::size_t i = 1; i <= present.size(); ++i)
@@ -48,7 +48,7 @@ TEST(InsHead, ThePresentIsWhatSettlesLater) {
 TEST(InsHead, AnyOrderInsideTheLagGivesTheSamePresent) {
   const Scenario scenario = surveyOf(40);
   const auto stream = until(streamOf(scenario, 2), 37.43);
-  LiveSession sorted(optionsOf(scenario), {"robust_ckf27"}, makeEstimator),
+  LiveRun sorted(optionsOf(scenario), {"robust_ckf27"}, makeEstimator),
       late(optionsOf(scenario), {"robust_ckf27"}, makeEstimator);
   feed(sorted, stream);
   feed(late, shuffled(stream, 1.9));
@@ -61,7 +61,7 @@ TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
   // GIVEN a run in waves, WHEN states are asked for between the stamps of the inertial unit, THEN their errors are
   // those at the stamps around them.
   Scenario scenario = surveyOf(40);
-  LiveSession live(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  LiveRun live(optionsOf(scenario), {"ckf27"}, makeEstimator);
   feed(live, streamOf(scenario, 1));
   const Trajectory trajectory(scenario.track, scenario.duration);
   const auto error = [&](double time) {
@@ -89,7 +89,7 @@ TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
 TEST(InsHead, StatesAtItsStampsAreItsSolutionsAndThoseOutsideAreNone) {
   const Scenario scenario = surveyOf(40);
   const auto stream = until(streamOf(scenario, 1), 35);
-  LiveSession live(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  LiveRun live(optionsOf(scenario), {"ckf27"}, makeEstimator);
   std::vector<NavigationSolution> present;
   for (const auto& reading : stream) {
     live.process(reading);

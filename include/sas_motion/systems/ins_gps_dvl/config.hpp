@@ -5,7 +5,7 @@
 #include <array>
 
 #include "sas_motion/config/yaml_section.hpp"
-#include "sas_motion/systems/ins_gps_dvl/session.hpp"
+#include "sas_motion/systems/ins_gps_dvl/run.hpp"
 
 namespace sas_motion::ins {
 

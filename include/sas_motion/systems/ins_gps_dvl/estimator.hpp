@@ -25,6 +25,7 @@ struct FixedLag {
 struct Config {
   Parameters parameters;
   Mechanisation::Options imu;
+  RobustKalmanFilter<kStates>::Options robust_kf;
   SmootherOptions batch{Loss(LossKind::Huber), 100, 1e-7};
   FixedLag fixed_lag;
 };
@@ -59,6 +60,8 @@ class Estimator {
   virtual ImuVerdict process(const ImuReading& reading, Output& output) = 0;
   /// The end of the data, or a pause: settles everything that is still open.
   virtual void finish(Output&) {}
+  /// Other losses, for readings that come from now on.
+  virtual void configure(const Config&) {}
   /// Why the last finish() has no answer, in plain words; empty where all is well.
   virtual std::string failure() const { return ""; }
   /// Another that goes on from here; null where the estimator keeps no present state.

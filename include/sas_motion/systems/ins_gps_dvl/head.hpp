@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "sas_motion/systems/ins_gps_dvl/session.hpp"
+#include "sas_motion/systems/ins_gps_dvl/run.hpp"
 
 namespace sas_motion::ins {
 
@@ -29,7 +29,8 @@ class Head {
   const std::optional<NavigationSolution>& current() const { return current_; }
   /// The solution at any stamp from the last settled one on: between two stamps of the inertial unit integrated with
   /// the means of that interval, after the newest with the last ones, up to `furthest` [s].
-  std::optional<NavigationSolution> at(const Estimator& settled, const Readings& open, Stamp stamp, double furthest) const;
+  std::optional<NavigationSolution> at(const Estimator& settled, const Readings& open, Stamp stamp,
+                                       double furthest) const;
 
  private:
   struct Checkpoint {
@@ -47,19 +48,28 @@ class Head {
   Output output_;
 };
 
-/// A session with the present of each of its estimators.
-class LiveSession {
+/// A run with the present of each of its estimators.
+class LiveRun {
  public:
-  LiveSession(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory)
-      : session_(options, names, std::move(factory)), heads_(names.size()), starts_(names.size()) {}
+  /// `keeps_present`: else it is the run alone, which is then fed by its owner.
+  LiveRun(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory,
+          bool keeps_present = true)
+      : run_(options, names, std::move(factory)),
+        heads_(names.size()),
+        starts_(names.size()),
+        keeps_present_(keeps_present) {}
 
   /// Takes a reading of any age. What it settles is in the lanes' output.
   ReadingQueue::Answer process(const Reading& reading);
   /// The end of the data, or a pause: settles everything that is still open.
   void finish();
 
-  Session& session() { return session_; }
-  const Session& session() const { return session_; }
+  /// As Run::startAt() and Run::configure().
+  void startAt(std::size_t lane, const Start& start);
+  void configure(const Config& config);
+
+  Run& run() { return run_; }
+  const Run& run() const { return run_; }
   /// Of the lane with this number; nothing before the start.
   const std::optional<NavigationSolution>& current(std::size_t lane) const { return heads_[lane].current(); }
   std::optional<NavigationSolution> at(std::size_t lane, Stamp stamp) const;
@@ -67,9 +77,10 @@ class LiveSession {
  private:
   void update(std::size_t lane, bool taken, std::size_t settled);
 
-  Session session_;
+  Run run_;
   std::vector<Head> heads_;
   std::vector<std::uint64_t> starts_;  // of the lanes, that the heads know of
+  bool keeps_present_;
 };
 
 }  // namespace sas_motion::ins

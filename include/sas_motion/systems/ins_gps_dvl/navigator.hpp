@@ -50,6 +50,8 @@ class Navigator {
   Navigator(const Filter& filter, const Parameters& parameters, const NavigationState& start, Stamp stamp,
             const Options& options);
 
+  /// Another tuning of the filter, from now on.
+  void use(const Filter& filter) { filter_ = filter; }
   void add(const Aiding& reading) { waiting_.push_back(reading); }
   /// Returns what became of the reading; audits() then are those of what it let be fused.
   ImuStep add(const ImuReading& reading);

@@ -35,7 +35,7 @@ void withFilter(FilterKind kind, const Config& config, const Visit& visit) {
     case FilterKind::Unaided: return visit(Unaided(), options);
     case FilterKind::Kalman:
     case FilterKind::OpenLoop: return visit(KalmanFilter<kStates>(), options);
-    case FilterKind::Robust: return visit(RobustKalmanFilter<kStates>({}), options);
+    case FilterKind::Robust: return visit(RobustKalmanFilter<kStates>(config.robust_kf), options);
   }
 }
 

@@ -18,13 +18,15 @@ struct Config {
   Mechanisation::Options imu;
   UnscentedParticleOptions
       particles;  ///< number, threads, seed; the estimator's name says the weighting and whether there is a loss
-  bool accelerometer_bias = true;  ///< 19 states; else the paper's 16
-  double longest_step = 1;         ///< of one prediction of the filter [s]
-  bool vectorised = true;          ///< square-root filters by vector instructions, where there are any
+  bool accelerometer_bias = true;                       ///< 19 states; else the paper's 16
+  double longest_step = 1;                              ///< of one prediction of the filter [s]
+  RobustKalmanFilter<ins::kStates>::Options robust_kf;  ///< of the fusion by small angles
+  ins::FixedLag fixed_lag;                              ///< of its factor graph
+  bool vectorised = true;  ///< square-root filters by vector instructions, where there are any
 };
 
 /// The same where an alignment found the start and the lever arms.
-Config startedAt(Config config, const ins::Parameters& found);
+Config startedAt(Config config, const ins::Config& found);
 
 /// Of the particles of the paper's filters, or of one filter of that kind alone.
 enum class FilterKind { Bootstrap, Unscented, SquareRoot };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,8 @@ class Estimator {
 /// kf, gated_kf, robust_kf, student_t_kf, mckf, mixture_kf, bank_kf or rts, or robust_kf_LOSS (e.g. robust_kf_cauchy)
 /// for robust_kf with that loss at its customary tuning; null for any other name.
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
+
+using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string& name, const Config& config)>;
 
 /// Whether a measurement can be used at all; a literal that says why not, or nothing.
 const char* invalidity(const Measurement& z, const Config& config);

@@ -3,18 +3,18 @@
 #pragma once
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
 
 #include <optional>
 
-#include "ros/conversions.hpp"
-#include "sas_motion/systems/ins_gps_dvl/session.hpp"
-#include "systems/ins_gps_dvl/ros/settings.hpp"
+#include "ros/messages.hpp"
+#include "sas_motion/systems/ins_gps_dvl/config.hpp"
 
 /// The only place where the axes of this system (starboard, forward, up; rotation errors C' = (I - [phi x]) C) meet
 /// those of REP-103 (forward, port, up; rotations about fixed axes).
 namespace sas_motion::ros_side {
 
-/// Where the sensor of a message sits, and the inertial unit, whose place the INS is.
+/// Where the sensor of a message sits, and the IMU, whose place the INS is.
 struct InsMount {
   Transform T_base_sensor = Transform::Identity();
   Transform T_base_imu = Transform::Identity();
@@ -37,11 +37,5 @@ std::optional<ins::Aiding> readingOf(const geometry_msgs::PoseWithCovarianceStam
                                      const ins::Settings& settings);
 
 Geodetic geodeticOf(const NavigationState& state);
-
-/// map -> base with covariance, of a solution of the base. The twist is in the base frame. A covariance of zeros is
-/// unknown; 1e6 on a diagonal is what the solution does not have.
-nav_msgs::Odometry odometryOf(const ins::NavigationSolution& solution, const LocalFrame& frame, const InsSettings& settings);
-sensor_msgs::NavSatFix fixOf(const ins::NavigationSolution& solution, const InsSettings& settings);
-sas_motion::FilterUpdate updateOf(const ins::Audit& audit);
 
 }  // namespace sas_motion::ros_side

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "ros/recorder_messages.hpp"
+#include "ros/solution_messages.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/navigation/earth.hpp"
 
@@ -27,12 +27,6 @@ Transform at(const Vector<3>& lever_body) {
   Transform T = Transform::Identity();
   T.translation() = bodyFromRosBody().transpose() * lever_body;
   return T;
-}
-
-void set(geometry_msgs::Vector3& message, const Vector<3>& v) {
-  message.x = v.x();
-  message.y = v.y();
-  message.z = v.z();
 }
 
 boost::array<double, 9> diagonal(double x, double y, double z) { return {x, 0, 0, 0, y, 0, 0, 0, z}; }
@@ -110,8 +104,9 @@ void InsRecorder::truth(double seconds) {
   exact.rate_body =
       sample.rateBody() - sample.state.q_nav_body.conjugate() * earth::rotationRate(sample.state.latitude);
   const ros::Time time = timeOf(exact.stamp);
-  bag_.write("truth/odometry", time, odometryOf(exact, frame_, settings_));
-  bag_.write("truth/fix", time, fixOf(exact, settings_));
+  const Solution solution = solutionOf(exact, frame_);
+  bag_.write("truth/odometry", time, odometryOf(solution, settings_));
+  bag_.write("truth/fix", time, fixOf(solution, settings_));
 }
 
 std_msgs::Header InsRecorder::header(Stamp since_start, const char* frame, std::uint32_t& seq) const {
@@ -128,7 +123,7 @@ void InsRecorder::inertial(const ImuReading& reading) {
   message.header = header(reading.stamp, "imu_link", imu_seq_);
   const Eigen::Quaterniond attitude =
       attitude_error_ * trajectory_.at(secondsBetween(0, reading.stamp)).state.q_nav_body;
-  message.orientation = orientationOf(attitude.toRotationMatrix());
+  message.orientation = messageOf(orientationOf(attitude.toRotationMatrix()));
   message.orientation_covariance = diagonal(squared(p.start_tilt), squared(p.start_tilt), squared(p.start_heading));
   set(message.angular_velocity, bodyFromRosBody().transpose() * reading.rate_body);
   set(message.linear_acceleration, bodyFromRosBody().transpose() * reading.force_body);
@@ -136,7 +131,7 @@ void InsRecorder::inertial(const ImuReading& reading) {
                force = squared(p.velocity_random_walk) * scenario_.imu_rate;
   message.angular_velocity_covariance = diagonal(rate, rate, rate);
   message.linear_acceleration_covariance = diagonal(force, force, force);
-  bag_.write(settings_.imu_topic, message.header.stamp, message);
+  bag_.write("imu/data", message.header.stamp, message);
 }
 
 void InsRecorder::aiding(const LabelledAiding& labelled) {
@@ -157,11 +152,10 @@ void InsRecorder::aiding(const LabelledAiding& labelled) {
 }
 
 void InsRecorder::fix(const Aiding& reading, std_msgs::Header header) {
-  sensor_msgs::NavSatFix message = fixAt(geodeticOf(reading.fix), header.frame_id, header.stamp);
-  message.header = header;
   const Vector<3> variance = reading.variance.value_or(scenario_.parameters.gps_white.cwiseAbs2());
-  message.position_covariance = diagonal(variance.x(), variance.y(), variance.z());
-  bag_.write(settings_.fix_topic, header.stamp, message);
+  sensor_msgs::NavSatFix message = fixAt(geodeticOf(reading.fix), header.stamp, header.frame_id, variance);
+  message.header = header;
+  bag_.write("gnss/fix", header.stamp, message);
 }
 
 void InsRecorder::velocity(const Vector<3>& velocity_nav, std_msgs::Header header) {
@@ -183,17 +177,17 @@ void InsRecorder::twist(const Aiding& reading, std_msgs::Header header) {
       C_dvl_body.cwiseAbs2() * reading.variance.value_or(scenario_.parameters.dvl_white.cwiseAbs2());
   for (int i = 0; i < 6; ++i)
     message.twist.covariance[static_cast<std::size_t>(7 * i)] = i < 3 ? variance(i) : kUnstated;
-  bag_.write(settings_.twist_topic, header.stamp, message);
+  bag_.write("dvl/twist", header.stamp, message);
 }
 
 void InsRecorder::depth(const Aiding& reading, std_msgs::Header header) {
   geometry_msgs::PoseWithCovarianceStamped message;
   message.header = header;
-  message.pose.pose.position.z = reading.fix.height - settings_.estimation.surface;
+  message.pose.pose.position.z = reading.fix.height;
   message.pose.pose.orientation.w = 1;
   for (std::size_t i = 0; i < 6; ++i)
     message.pose.covariance[7 * i] = i == 2 ? squared(scenario_.parameters.depth_white) : kUnstated;
-  bag_.write(settings_.depth_topic, header.stamp, message);
+  bag_.write("depth/pose", header.stamp, message);
 }
 
 }  // namespace sas_motion

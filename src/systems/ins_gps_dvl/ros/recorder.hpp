@@ -6,6 +6,8 @@
 #include <functional>
 
 #include "bag/bag_output.hpp"
+#include "ros/settings.hpp"
+#include "sas_motion/systems/ins_gps_dvl/session.hpp"
 #include "sas_motion/systems/ins_gps_dvl/simulator.hpp"
 #include "sas_motion/systems/sins_dvl/scenario.hpp"
 #include "systems/ins_gps_dvl/ros/conversions.hpp"
@@ -43,7 +45,7 @@ class InsRecorder {
   ins::Recording recording_;
   bool with_gps_;
   ros_side::BagOutput& bag_;
-  ros_side::InsSettings settings_;
+  ros_side::MapSettings settings_;
   LocalFrame frame_;
   ros_side::Transform T_base_dvl_;
   Eigen::Quaterniond attitude_error_;

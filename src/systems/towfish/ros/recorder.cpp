@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/towfish/ros/recorder.hpp"
 
-#include <geometry_msgs/TransformStamped.h>
 #include <sas_motion/MeasurementLabel.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+
+#include "ros/solution_messages.hpp"
+#include "sas_motion/systems/towfish/solution.hpp"
 
 namespace sas_motion {
 
@@ -14,6 +18,8 @@ using namespace ros_side;
 using namespace towfish;
 
 namespace {
+
+constexpr double kTruthPeriod = 0.1;  // between messages of the truth [s]
 
 sas_motion::MeasurementLabel label(const Measurement& z, const std::array<bool, 2>& outlier) {
   sas_motion::MeasurementLabel message;
@@ -25,28 +31,32 @@ sas_motion::MeasurementLabel label(const Measurement& z, const std::array<bool, 
 
 }  // namespace
 
-void TowfishRecorder::transforms() {
-  tf2_msgs::TFMessage message;
-  for (const char* frame : {"gnss_link", "imu_link", "dvl_link"}) {
-    geometry_msgs::TransformStamped T;
-    T.header.stamp = timeOf(Simulator::kStart);
-    T.header.frame_id = settings_.base_frame;
-    T.child_frame_id = frame;
-    T.transform.rotation.w = 1;
-    if (std::string(frame) == "gnss_link") {
-      T.transform.translation.x = scenario_.gnss_lever_arm_body(0);
-      T.transform.translation.y = -scenario_.gnss_lever_arm_body(1);
-    }
-    message.transforms.push_back(T);
+void TowfishRecorder::record(const std::function<void(double)>& progress) {
+  const long every = std::max(1L, std::lround(kTruthPeriod / scenario_.step));
+  transforms();
+  for (long step = 0; simulator_.next(); ++step) {
+    if (step % every == 0) truth(simulator_.truth());
+    measurements(simulator_.measurements());
+    if (step % 100 == 0) progress(100 * scenario_.step);
   }
-  bag_.writeLatched("/tf_static", timeOf(Simulator::kStart), message);
+}
+
+void TowfishRecorder::transforms() {
+  const ros::Time time = timeOf(Simulator::kStart);
+  Transform T_base_gnss = Transform::Identity();
+  T_base_gnss.translation() << scenario_.gnss_lever_arm_body(0), -scenario_.gnss_lever_arm_body(1), 0;
+  tf2_msgs::TFMessage message;
+  message.transforms = {stamped(settings_.base_frame, "gnss_link", time, T_base_gnss),
+                        stamped(settings_.base_frame, "imu_link", time, Transform::Identity()),
+                        stamped(settings_.base_frame, "dvl_link", time, Transform::Identity())};
+  bag_.writeLatched("/tf_static", time, message);
 }
 
 void TowfishRecorder::truth(const TruthSample& truth) {
-  const Estimate exact{truth.stamp, {truth.state, StateMatrix::Zero()}};
+  const Solution exact = solutionOf({truth.stamp, {truth.state, StateMatrix::Zero()}}, &frame_);
   const ros::Time time = timeOf(truth.stamp);
   bag_.write("truth/odometry", time, odometryOf(exact, settings_));
-  bag_.write("truth/fix", time, fixOf(exact, frame_, settings_));
+  bag_.write("truth/fix", time, fixOf(exact, settings_));
   bag_.write("truth/current", time, currentOf(exact, settings_));
 }
 
@@ -71,13 +81,9 @@ void TowfishRecorder::measurements(const std::vector<LabelledMeasurement>& measu
 }
 
 sensor_msgs::NavSatFix TowfishRecorder::fix(const Measurement& z) {
-  Estimate at{z.stamp, {}};
-  at.belief.mean << z.value, 0, 0, 0, 0;
-  sensor_msgs::NavSatFix message = fixOf(at, frame_, settings_);
+  sensor_msgs::NavSatFix message = fixAt(frame_.geodetic({z.value(1), z.value(0), 0}), timeOf(z.stamp), "gnss_link",
+                                         {z.variance(1), z.variance(0), 4 * z.variance(0)});
   message.header.seq = fix_seq_++;
-  message.header.frame_id = "gnss_link";
-  message.position_covariance = {z.variance(1), 0, 0, 0, z.variance(0), 0, 0, 0, 4 * z.variance(0)};
-  message.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
   return message;
 }
 
@@ -97,7 +103,7 @@ void TowfishRecorder::fill(sensor_msgs::Imu& imu, const Measurement& z) const {
   if (z.sensor == Sensor::Heading) {
     Estimate at{z.stamp, {}};
     at.belief.mean(kHeading) = z.value(0);
-    imu.orientation = odometryOf(at, settings_).pose.pose.orientation;
+    imu.orientation = messageOf(solutionOf(at, nullptr).q_map_base);
     imu.orientation_covariance = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, z.variance(0)};
   } else {
     imu.angular_velocity.z = -z.value(0);

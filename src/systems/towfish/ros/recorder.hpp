@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
+#include <sensor_msgs/Imu.h>
+
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "bag/bag_output.hpp"
-#include "ros/conversions.hpp"
+#include "ros/settings.hpp"
 #include "sas_motion/systems/towfish/simulator.hpp"
 
 namespace sas_motion {
@@ -15,22 +18,25 @@ namespace sas_motion {
 /// Turns what the simulator of a towfish gives into messages in a bag.
 class TowfishRecorder {
  public:
-  TowfishRecorder(const towfish::Scenario& scenario, ros_side::BagOutput& bag)
-      : scenario_(scenario), bag_(bag), frame_(scenario.datum) {}
+  TowfishRecorder(const towfish::Scenario& scenario, std::uint64_t seed, ros_side::BagOutput& bag)
+      : scenario_(scenario), simulator_(scenario, seed), bag_(bag), frame_(scenario.datum) {}
 
+  /// The whole scenario; `progress` is told of seconds as they pass.
+  void record(const std::function<void(double)>& progress);
+
+ private:
   void transforms();
   void truth(const towfish::TruthSample& truth);
   void measurements(const std::vector<towfish::LabelledMeasurement>& measurements);
-
- private:
   sensor_msgs::NavSatFix fix(const towfish::Measurement& z);
   geometry_msgs::TwistWithCovarianceStamped twist(const towfish::Measurement& z);
   void fill(sensor_msgs::Imu& imu, const towfish::Measurement& z) const;
 
-  const towfish::Scenario& scenario_;
+  towfish::Scenario scenario_;
+  towfish::Simulator simulator_;
   ros_side::BagOutput& bag_;
   LocalFrame frame_;
-  ros_side::Settings settings_;
+  ros_side::MapSettings settings_;
   std::uint32_t fix_seq_ = 0, imu_seq_ = 0, twist_seq_ = 0;
 };
 

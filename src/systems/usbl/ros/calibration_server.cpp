@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "ros/solution_messages.hpp"
+#include "ros/system_run.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "systems/usbl/graph/batch.hpp"
 #include "systems/usbl/ros/calibration_result.hpp"
@@ -17,31 +19,32 @@ namespace {
 
 constexpr double kDiagnosticPeriod = 1;  // [s, wall]
 
-FilterUpdate auditOf(const usbl::Ping& ping, const usbl::Calibrator::Report& report) {
-  FilterUpdate message;
-  message.header.stamp = timeOf(ping.stamp);
-  message.sensor = "usbl";
-  message.innovation.assign(report.innovation.data(), report.innovation.data() + usbl::kChannels);
-  message.innovation_covariance.assign(report.S.data(), report.S.data() + report.S.size());  // symmetric
-  message.nis = report.nis;
-  message.weights.assign(report.weights.data(), report.weights.data() + usbl::kChannels);
-  message.verdict = static_cast<std::uint8_t>(report.verdict);
-  message.iterations = static_cast<std::uint32_t>(report.iterations);
-  return message;
+FilterUpdate updateOf(const usbl::Ping& ping, const usbl::Calibrator::Report& report) {
+  Audit audit{ping.stamp, "usbl", usbl::kChannels, report.verdict};
+  audit.innovation = report.innovation;
+  audit.S = report.S;
+  audit.nis = report.nis;
+  audit.weights = report.weights;
+  audit.iterations = report.iterations;
+  return updateOf(audit);
 }
 
 }  // namespace
 
 CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::NodeHandle& own)
     : node_(node), names_{"hvbckf"} {
-  settings_ = UsblSettings::fromFile(own.param<std::string>("config", ""));
-  own.getParam("estimators", names_);
+  std::string config;
+  double tolerance_deg = tolerance_.angle / kRadPerDeg;
+  readParameter(own, "config", config);
+  settings_ = UsblSettings::fromFile(config);
+  readParameter(own, "estimators", names_);
   if (names_.empty()) throw std::invalid_argument("~estimators is empty; name at least one filter, such as hvbckf");
-  tolerance_.angle = own.param("tolerance_deg", tolerance_.angle / kRadPerDeg) * kRadPerDeg;
-  tolerance_.lever_arm = own.param("tolerance", tolerance_.lever_arm);
-  output_ = own.param("output", output_);
-  transform_wait_ = own.param("transform_wait", transform_wait_);
-  most_pings_ = own.param("most_pings", most_pings_);
+  readParameter(own, "tolerance_deg", tolerance_deg);
+  tolerance_.angle = tolerance_deg * kRadPerDeg;
+  readParameter(own, "tolerance", tolerance_.lever_arm);
+  readParameter(own, "output", output_);
+  readParameter(own, "transform_wait", transform_wait_);
+  readParameter(own, "most_pings", most_pings_);
   beginAnew();
 
   listener_ = std::make_unique<tf2_ros::TransformListener>(transforms_, node_);
@@ -65,9 +68,7 @@ CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::Nod
   ros::NodeHandle services(own);
   services_.push_back(services.advertiseService("save", &CalibrationServer::onSave, this));
   services_.push_back(services.advertiseService("reset", &CalibrationServer::onReset, this));
-  updater_ = std::make_unique<diagnostic_updater::Updater>(node_, own, own.getNamespace());
-  updater_->setHardwareID("none");
-  updater_->add("calibration", this, &CalibrationServer::diagnose);
+  updater_ = makeUpdater(node_, own, "calibration", this, &CalibrationServer::diagnose);
   timer_ = ros::NodeHandle(own).createWallTimer(ros::WallDuration(kDiagnosticPeriod),
                                                 [this](const ros::WallTimerEvent&) { updater_->force_update(); });
 }
@@ -140,7 +141,7 @@ void CalibrationServer::publish(Lane& lane, const usbl::Ping& ping, const usbl::
   message.pings = static_cast<std::uint32_t>(observability_.pings + 1);
   message.lock_ins = static_cast<std::uint32_t>(lane.calibrator.lockIns());
   lane.calibration.publish(message);
-  if (message.started) lane.update.publish(auditOf(ping, report));
+  if (message.started) lane.update.publish(updateOf(ping, report));
 }
 
 bool CalibrationServer::withinTolerance(const usbl::Calibrator& calibrator) const {

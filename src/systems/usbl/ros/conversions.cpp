@@ -3,27 +3,15 @@
 #include "systems/usbl/ros/conversions.hpp"
 
 #include <charconv>
-#include <cmath>
+#include <limits>
 
-#include "ros/believed_variance.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
 
-Eigen::Quaterniond quaternionOf(const geometry_msgs::Quaternion& q) { return {q.w, q.x, q.y, q.z}; }
-
-geometry_msgs::Quaternion messageOf(const Eigen::Quaterniond& q) {
-  geometry_msgs::Quaternion message;
-  message.x = q.x();
-  message.y = q.y();
-  message.z = q.z();
-  message.w = q.w();
-  return message;
-}
-
 double variance(double stated, double sigma) {
-  return usableVariance(stated) || sigma > 0 ? believedVariance(stated, sigma, 0, false)
+  return usableVariance(stated) || sigma > 0 ? usedVariance(stated, sigma, 0, false)
                                              : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -46,18 +34,6 @@ sas_motion::UsblMeasurement measurementOf(const usbl::Reading& reading) {
   return message;
 }
 
-std::optional<Matrix<3>> rotationOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu) {
-  const Eigen::Quaterniond q = quaternionOf(imu.orientation);
-  const bool unit = std::abs(q.squaredNorm() - 1) < 0.1;
-  if (imu.orientation_covariance[0] == -1 || !unit) return std::nullopt;
-  const Matrix<3> C_map_base = q.normalized().toRotationMatrix() * T_base_imu.linear().transpose();
-  return C_map_base * bodyFromRosBody().transpose();
-}
-
-geometry_msgs::Quaternion orientationOf(const Matrix<3>& C_map_body) {
-  return messageOf(Eigen::Quaterniond(C_map_body * bodyFromRosBody()));
-}
-
 usbl::Mounting mountingOf(const Transform& T) {
   const Matrix<3> B = bodyFromRosBody();
   return {B * T.linear() * B.transpose(), B * T.translation()};
@@ -77,15 +53,6 @@ std::optional<std::uint32_t> transponderId(const std::string& frame_id) {
   const auto [last, error] = std::from_chars(frame_id.data(), end, id);
   if (error != std::errc() || last != end) return std::nullopt;
   return id;
-}
-
-geometry_msgs::Transform messageOf(const Transform& transform) {
-  geometry_msgs::Transform message;
-  message.translation.x = transform.translation().x();
-  message.translation.y = transform.translation().y();
-  message.translation.z = transform.translation().z();
-  message.rotation = messageOf(Eigen::Quaterniond(transform.linear()));
-  return message;
 }
 
 }  // namespace sas_motion::ros_side

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <sas_motion/UsblMeasurement.h>
-#include <sensor_msgs/Imu.h>
 
 #include <optional>
 #include <string>
 
-#include "ros/conversions.hpp"
+#include "ros/messages.hpp"
 #include "sas_motion/systems/usbl/mounting.hpp"
 #include "systems/usbl/ros/settings.hpp"
 
@@ -21,20 +20,9 @@ usbl::Reading readingOf(const sas_motion::UsblMeasurement& message, const UsblSe
 /// The message of a reading; a direction's variance is that of the first which is there.
 sas_motion::UsblMeasurement measurementOf(const usbl::Reading& reading);
 
-/// v_map = C v_body of the base frame, from the orientation of the sensor at T_base_imu; nothing where the message has
-/// none.
-std::optional<Matrix<3>> rotationOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu);
-/// The orientation that such a rotation has in a message.
-geometry_msgs::Quaternion orientationOf(const Matrix<3>& C_map_body);
-
 usbl::Mounting mountingOf(const Transform& T_base_array);
 Transform transformOf(const usbl::Mounting& mounting);
-/// A vector in the base frame, in starboard, forward, up.
-inline Vector<3> bodyVectorOf(const Vector<3>& ros_body) { return bodyFromRosBody() * ros_body; }
-
 /// The id that a transponder's frame_id holds; nothing where it is no number.
 std::optional<std::uint32_t> transponderId(const std::string& frame_id);
-
-geometry_msgs::Transform messageOf(const Transform& transform);
 
 }  // namespace sas_motion::ros_side

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <string>
 
-#include "ros/recorder_messages.hpp"
-
 namespace sas_motion {
 
 using namespace ros_side;
@@ -66,7 +64,7 @@ void UsblRecorder::fixed() {
                            stamped(settings_.base_frame, "imu_link", start, Transform::Identity())};
   bag_.writeLatched("/tf_static", start, transforms);
   bag_.writeLatched(settings_.transponder_topic, start,
-                    fixAt(simulator_.transponder(), std::to_string(kTransponder), start));
+                    fixAt(simulator_.transponder(), start, std::to_string(kTransponder), Vector<3>::Zero()));
   const Transform T_base_array = transformOf(usbl::corrected({}, scenario_.truth.head<usbl::kStates>()));
   bag_.writeLatched("truth/usbl_mounting", start, stamped(settings_.base_frame, kArrayFrame, start, T_base_array));
 }
@@ -79,24 +77,22 @@ void UsblRecorder::truth(ros::Time time, const usbl::Pose& pose) {
   message.pose.pose.position.x = pose.position_map(0);
   message.pose.pose.position.y = pose.position_map(1);
   message.pose.pose.position.z = pose.position_map(2);
-  message.pose.pose.orientation = orientationOf(rotationOf(pose.attitude));
+  message.pose.pose.orientation = messageOf(orientationOf(rotationOf(pose.attitude)));
   bag_.write("truth/odometry", time, message);
 }
 
 void UsblRecorder::fix(ros::Time time, const usbl::Pose& pose) {
-  sensor_msgs::NavSatFix message =
-      fixAt(simulator_.frame().geodetic(simulator_.measuredAntenna(pose)), "gnss_link", time);
   const double flat = scenario_.gnss_sigma * scenario_.gnss_sigma,
                up = scenario_.gnss_sigma_up * scenario_.gnss_sigma_up;
-  message.position_covariance = {flat, 0, 0, 0, flat, 0, 0, 0, up};
-  bag_.write(settings_.fix_topic, time, message);
+  const Geodetic antenna = simulator_.frame().geodetic(simulator_.measuredAntenna(pose));
+  bag_.write(settings_.fix_topic, time, fixAt(antenna, time, "gnss_link", {flat, flat, up}));
 }
 
 void UsblRecorder::attitude(ros::Time time, const usbl::Pose& pose) {
   sensor_msgs::Imu message;
   message.header.stamp = time;
   message.header.frame_id = "imu_link";
-  message.orientation = orientationOf(rotationOf(simulator_.measuredAttitude(pose).attitude));
+  message.orientation = messageOf(orientationOf(rotationOf(simulator_.measuredAttitude(pose).attitude)));
   const double tilt = scenario_.attitude_sigma * scenario_.attitude_sigma,
                heading = scenario_.heading_sigma * scenario_.heading_sigma;
   message.orientation_covariance = {tilt, 0, 0, 0, tilt, 0, 0, 0, heading};

@@ -4,12 +4,14 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "ros/estimator_server.hpp"
-#include "ros/ins_server.hpp"
+#include "ros/server.hpp"
+#include "systems/registry.hpp"
 #include "systems/usbl/ros/calibration_server.hpp"
 
 namespace sas_motion {
 namespace {
+
+using ros_side::EstimatorServer;
 
 /// Starts a server; wrong parameters stop it with one plain sentence instead of an exception in the manager.
 template <class Server, class... Arguments>
@@ -22,30 +24,37 @@ std::unique_ptr<Server> serve(const ros::NodeHandle& node, const ros::NodeHandle
   }
 }
 
+EstimatorServer::Open systemOr(const char* otherwise) {
+  return [otherwise](const std::string& config) { return openSystem(config, otherwise); };
+}
+
 }  // namespace
 
-/// Filters, live: by default kf and robust_kf side by side.
+/// Filters of the system of ~config, live; without a file a towfish's, by default kf and robust_kf side by side.
 class FilterNodelet final : public nodelet::Nodelet {
   void onInit() override {
-    server_ = serve<ros_side::EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(),
-                                               std::vector<std::string>{"kf", "robust_kf"});
+    server_ = serve<EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(), systemOr("towfish"),
+                                     EstimatorServer::Kind::Filters);
   }
-  std::unique_ptr<ros_side::EstimatorServer> server_;
+  std::unique_ptr<EstimatorServer> server_;
 };
 
 /// The factor-graph smoother, live: fixed_lag, and batch on request (~batch: true, ~solve_batch).
 class SmootherNodelet final : public nodelet::Nodelet {
   void onInit() override {
-    server_ = serve<ros_side::EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(),
-                                               std::vector<std::string>{"fixed_lag"});
+    server_ = serve<EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(), systemOr("towfish"),
+                                     EstimatorServer::Kind::Smoothers);
   }
-  std::unique_ptr<ros_side::EstimatorServer> server_;
+  std::unique_ptr<EstimatorServer> server_;
 };
 
-/// The fusion of INS, GPS and DVL in 27 states, live: by default robust_ckf27.
+/// Filters of the system of ~config, live; without a file the fusion of INS, GNSS and DVL in 27 states.
 class InsFilterNodelet final : public nodelet::Nodelet {
-  void onInit() override { server_ = serve<ros_side::InsServer>(getNodeHandle(), getPrivateNodeHandle()); }
-  std::unique_ptr<ros_side::InsServer> server_;
+  void onInit() override {
+    server_ = serve<EstimatorServer>(getNodeHandle(), getPrivateNodeHandle(), systemOr("ins_gps_dvl"),
+                                     EstimatorServer::Kind::Filters);
+  }
+  std::unique_ptr<EstimatorServer> server_;
 };
 
 /// A USBL calibration, live.

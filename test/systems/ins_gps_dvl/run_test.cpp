@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/ins_gps_dvl/session.hpp"
+#include "sas_motion/systems/ins_gps_dvl/run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ double positionError(const Scenario& scenario, const NavigationSolution& solutio
 }
 
 Lack lackOf(const std::vector<Reading>& stream, const SessionOptions& options) {
-  Session session(options, {"ckf27"}, makeEstimator);
+  Run session(options, {"ckf27"}, makeEstimator);
   for (const auto& reading : stream) session.process(reading);
   session.finish();
   EXPECT_TRUE(session.lanes()[0].output.solutions.empty());
@@ -204,7 +204,7 @@ TEST(InsSession, DuplicatesChangeNothing) {
     doubled.push_back(stream[i]);
     if (i % 10 == 0) doubled.push_back(stream[i]);
   }
-  Session session(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  Run session(optionsOf(scenario), {"ckf27"}, makeEstimator);
   for (const auto& reading : doubled) session.process(reading);
   session.finish();
   const Output once = settled(stream, optionsOf(scenario));
@@ -220,7 +220,7 @@ TEST(InsSession, AGapOfTheInertialUnitIsBridgedCountedAndRecoveredFrom) {
     const double time = secondsBetween(kEpoch, stampOf(r));
     return isInertial(r) && time > 40 && time < 42;
   };
-  Session session(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  Run session(optionsOf(scenario), {"ckf27"}, makeEstimator);
   for (const auto& reading : without(streamOf(scenario, 1), in_gap)) session.process(reading);
   session.finish();
   EXPECT_EQ(session.inertial().verdicts[static_cast<std::size_t>(ImuVerdict::Bridged)], 1u);
@@ -232,7 +232,7 @@ TEST(InsSession, AWrongRateIsCounted) {
   const Scenario scenario = surveyOf(20);
   int count = 0;
   const auto stream = without(streamOf(scenario, 1), [&](const Reading& r) { return isInertial(r) && ++count % 2; });
-  Session session(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  Run session(optionsOf(scenario), {"ckf27"}, makeEstimator);
   for (const auto& reading : stream) session.process(reading);
   session.finish();
   EXPECT_NEAR(session.inertial().mean_period, 0.02, 1e-9);
