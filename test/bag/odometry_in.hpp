@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "bag/bag_reader.hpp"
-#include "systems/ins_gps_dvl/ros/conversions.hpp"
+#include "ros/solution_messages.hpp"
+#include "sas_motion/systems/ins_gps_dvl/session.hpp"
 
 namespace sas_motion::ros_side {
 
@@ -34,7 +35,7 @@ inline Differences differencesBetween(const std::vector<nav_msgs::Odometry>& mes
                                       const std::vector<ins::NavigationSolution>& solutions, const LocalFrame& frame) {
   Differences most;
   for (std::size_t i = 0; i < messages.size(); ++i) {
-    const auto expected = odometryOf(solutions[i], frame, {});
+    const auto expected = odometryOf(solutionOf(solutions[i], frame), {});
     EXPECT_EQ(messages[i].header.stamp.nsec, expected.header.stamp.nsec);
     const auto &a = messages[i].pose.pose, &b = expected.pose.pose;
     const auto note = [](double& largest, double difference) {

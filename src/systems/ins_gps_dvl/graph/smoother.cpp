@@ -2,19 +2,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/ins_gps_dvl/graph/smoother.hpp"
 
+#include "sas_motion/systems/ins_gps_dvl/solutions.hpp"
+
 namespace sas_motion::ins {
 namespace {
 
 constexpr int kLiveIterations = 5;
 constexpr double kLiveTolerance = 1e-5;  // [-]
 
+/// A filter that goes on from a solution: at the stamp of that its estimate had an error, which grows by the velocity's.
+class Present final : public Estimator {
+ public:
+  Present(const RobustCkf27& filter, const Vector<kNodeStates>& error, Stamp stamp)
+      : filter_(filter), error_(error), stamp_(stamp) {}
+
+  void start(const NavigationState&, Stamp) override {}
+  void process(const Aiding& reading, Output&) override { filter_.add(reading); }
+  ImuVerdict process(const ImuReading& reading, Output& output) override {
+    const ImuVerdict verdict = filter_.add(reading).verdict;
+    auto solution = *solutionOf(filter_, Source::Fused);
+    Vector<kNodeStates> error = error_;
+    error.segment<3>(kPosition) += secondsBetween(stamp_, solution.stamp) * error_.segment<3>(kVelocity);
+    solution.state = nodeOf(solution.state, filter_.belief().mean).retract(-error).state;
+    output.solutions.push_back(solution);
+    return verdict;
+  }
+  std::unique_ptr<Estimator> clone() const override { return std::make_unique<Present>(*this); }
+
+ private:
+  RobustCkf27 filter_;
+  Vector<kNodeStates> error_;
+  Stamp stamp_;
+};
+
 }  // namespace
+
+std::unique_ptr<Estimator> InsSmoother::clone() const {
+  if (!chain_ || !options_.window) return nullptr;
+  return std::make_unique<Present>(chain_->filter(), filter_error_, solved_);
+}
 
 void InsSmoother::start(const NavigationState& state, Stamp stamp) {
   chain_.emplace(config_, state, stamp);
   window_.emplace(chain_->filter().model(), options_.loss, state, chain_->filter().belief(), stamp);
   stops_.clear();
   solved_ = stamp;
+  last_start_ = window_->node(0);
+  filter_error_.setZero();
   failure_ = "";
 }
 
@@ -29,10 +63,18 @@ ImuVerdict InsSmoother::process(const ImuReading& reading, Output& output) {
   return verdict;
 }
 
-/// Moves what is complete into the window, and solves it where that is due.
-void InsSmoother::take(Output& output) {
-  for (const auto& stop : stops_) window_->add(stop);
+/// Moves what is complete into the window.
+void InsSmoother::addStops() {
+  for (const auto& stop : stops_) {
+    window_->add(stop);
+    last_start_ = stop.start;
+  }
   stops_.clear();
+}
+
+/// Takes what is complete, and solves the window where that is due.
+void InsSmoother::take(Output& output) {
+  addStops();
   const Stamp newest = window_->stamp(window_->size() - 1);
   if (!options_.window || secondsBetween(solved_, newest) < options_.window->solve_interval) return;
   solve(kLiveIterations, kLiveTolerance, output);
@@ -45,8 +87,7 @@ void InsSmoother::take(Output& output) {
 void InsSmoother::finish(Output& output) {
   if (!chain_) return;
   chain_->close(stops_);
-  for (const auto& stop : stops_) window_->add(stop);
-  stops_.clear();
+  addStops();
   failure_ = "";
   solve(options_.max_iterations, options_.tolerance, output);
   if (!failure_.empty()) return;
@@ -60,8 +101,12 @@ void InsSmoother::finish(Output& output) {
 void InsSmoother::solve(int max_iterations, double tolerance, Output& output) {
   const std::string failure = window_->solve(max_iterations, tolerance);
   solved_ = window_->stamp(window_->size() - 1);
-  if (failure.empty()) return;
+  if (failure.empty()) {
+    filter_error_ = window_->node(window_->size() - 1).localCoordinates(last_start_);
+    return;
+  }
   failure_ = failure;
+  filter_error_.setZero();
   beginAnew(output);
 }
 
@@ -76,6 +121,7 @@ void InsSmoother::beginAnew(Output& output) {
   stops_.clear();
   const RobustCkf27& filter = chain_->filter();
   window_.emplace(filter.model(), options_.loss, filter.fused(), filter.belief(), filter.stamp());
+  last_start_ = window_->node(0);
 }
 
 void InsSmoother::settle(std::size_t count, Output& output) {

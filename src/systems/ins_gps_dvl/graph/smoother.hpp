@@ -27,11 +27,14 @@ class InsSmoother final : public Estimator {
   ImuVerdict process(const ImuReading& reading, Output& output) override;
   void finish(Output& output) override;
   std::string failure() const override { return failure_; }
+  /// Of a sliding window: the present, by the filter beside it from where the last solution puts the last node.
+  std::unique_ptr<Estimator> clone() const override;
 
   /// The nodes that are not forgotten; null before the start.
   const InsWindow* window() const { return window_ ? &*window_ : nullptr; }
 
  private:
+  void addStops();
   void take(Output& output);
   void solve(int max_iterations, double tolerance, Output& output);
   void beginAnew(Output& output);
@@ -44,6 +47,8 @@ class InsSmoother final : public Estimator {
   std::optional<InsWindow> window_;
   std::vector<InsChain::Stop> stops_;  // not yet in the window
   Stamp solved_ = 0;
+  Node last_start_;                                                 // the filter's estimate at the last node
+  Vector<kNodeStates> filter_error_ = Vector<kNodeStates>::Zero();  // by the last solution, at solved_
   std::string failure_;
 };
 

@@ -116,6 +116,15 @@ class TowfishRun final : public SystemRun {
   }
 
   Session& session() override { return session_; }
+  std::string waitsFor() const override {
+    const auto readings = [this](Source source) {
+      const MessageCounts& counts = inbox().counts(source);
+      return counts.messages - counts.unusable - counts.unknown_frame - counts.disabled;
+    };
+    if (readings(kFix) == 0) return sources()[kFix].topic + " has no message with a fix";
+    if (readings(kImu) == 0) return sources()[kImu].topic + " has no message with an orientation or a turn rate";
+    return "";
+  }
 
  private:
   /// Returns whether there was any.

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bag/bag_output.hpp"
 #include "bag/reprocess.hpp"
 #include "odometry_in.hpp"
 #include "systems/ins_gps_dvl/ros/recorder.hpp"
+#include "systems/registry.hpp"
 #include "systems/ins_gps_dvl/stream.hpp"
 
 namespace sas_motion::ros_side {
@@ -24,7 +26,7 @@ TEST(InsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
   BagOutput bag(file);
   InsRecorder(scenario, 7, bag).record([](double) {});
   bag.commit();
-  reprocess(file, folder + "/out", {"ckf27", "robust_ckf27"}, *makeReprocessSystem(config), [](double) {});
+  reprocess(file, folder + "/out", {"ckf27", "robust_ckf27"}, *openSystem(config), [](double) {});
 
   const LocalFrame frame({54.35, 10.15, 0});
   for (const std::string name : {"ckf27", "robust_ckf27"}) {

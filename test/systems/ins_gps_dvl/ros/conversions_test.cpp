@@ -7,9 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "ros/solution_messages.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/navigation/attitude.hpp"
 #include "sas_motion/navigation/earth.hpp"
+#include "sas_motion/systems/ins_gps_dvl/session.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -192,13 +194,13 @@ TEST(InsConversions, CovariancesAreThoseOfPerturbedSolutions) {
   // GIVEN a solution far from the datum and a base away from the INS, WHEN each error is put in, THEN the message's
   // covariance is that of what it changes
   const LocalFrame frame({54.2, 9.9, 0});
-  const InsSettings settings;
+  const MapSettings settings;
   const Vector<3> lever(0.4, -1.2, 3.5);
   ins::NavigationSolution solution = solutionAt(0.7);
   Matrix<9> root = Matrix<9>::Random();
   const Matrix<9> P = root * root.transpose();
   solution.covariance = P;
-  const auto message = odometryOf(movedBy(solution, lever), frame, settings);
+  const auto message = odometryOf(solutionOf(movedBy(solution, lever), frame), settings);
   const auto& o = message.pose.pose.orientation;
   const Eigen::Quaterniond about(o.w, o.x, o.y, o.z);
   Matrix<9> J;
@@ -213,7 +215,7 @@ TEST(InsConversions, CovariancesAreThoseOfPerturbedSolutions) {
       const Vector<3> phi = e.tail<3>();
       wrong.state.q_nav_body =
           Eigen::Quaterniond(Eigen::AngleAxisd(-phi.norm(), phi.stableNormalized())) * wrong.state.q_nav_body;
-      return numbersOf(odometryOf(movedBy(wrong, lever), frame, settings), about);
+      return numbersOf(odometryOf(solutionOf(movedBy(wrong, lever), frame), settings), about);
     };
     J.col(i) = (with(kStep) - with(-kStep)) / (2 * kStep);
   }
@@ -229,7 +231,7 @@ TEST(InsConversions, ASolutionGoesOutInRep103AndComesBack) {
   const LocalFrame frame({54.35, 10.15, 0});
   ins::NavigationSolution solution = solutionAt(kPi / 2);  // bound east
   solution.state.q_nav_body = Eigen::Quaterniond(rotationOf(Attitude{0, 0, kPi / 2}));
-  const auto odometry = odometryOf(solution, frame, {});
+  const auto odometry = odometryOf(solutionOf(solution, frame), {});
   EXPECT_NEAR(odometry.pose.pose.orientation.w, 1, 1e-12);  // x of the base is east
   EXPECT_NEAR(odometry.pose.pose.position.z, 3, 1e-9);
   EXPECT_NEAR(odometry.twist.twist.linear.x, 1, 1e-12);
@@ -239,7 +241,7 @@ TEST(InsConversions, ASolutionGoesOutInRep103AndComesBack) {
   EXPECT_EQ(odometry.pose.covariance[0], 0);  // unknown
   solution.has_attitude = solution.has_velocity = false;
   solution.rate_body.reset();
-  const auto position = odometryOf(solution, frame, {});
+  const auto position = odometryOf(solutionOf(solution, frame), {});
   EXPECT_EQ(position.pose.covariance[35], 1e6);
   EXPECT_EQ(position.twist.covariance[0], 1e6);
   EXPECT_EQ(position.twist.covariance[35], 1e6);

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bag/bag_output.hpp"
 #include "bag/reprocess.hpp"
 #include "odometry_in.hpp"
 #include "sas_motion/systems/sins_dvl/estimator.hpp"
 #include "systems/ins_gps_dvl/ros/recorder.hpp"
+#include "systems/registry.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -56,7 +58,7 @@ TEST(SinsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
   InsRecorder(scenario, 7, bag).record([](double) {});
   bag.commit();
   const std::vector<std::string> names{"ss_srupf", "ss_srukf"};
-  reprocess(file, folder + "/out", names, *makeReprocessSystem(config), [](double) {});
+  reprocess(file, folder + "/out", names, *openSystem(config), [](double) {});
 
   const LocalFrame frame({60, 120, 0});
   for (const auto& name : names) {
