@@ -34,7 +34,10 @@ void shareWhite(Settings& settings) {
 
 }  // namespace
 
+/// Messages state how well an attitude is known; where one does not, it is taken to be that of a cheap unit.
 Settings::Settings() {
+  session.config.parameters.start_tilt = 0.5 * kRadPerDeg;
+  session.config.parameters.start_heading = 5 * kRadPerDeg;
   session.config.imu.max_rate = 1000 * kRadPerDeg;
   of(Sensor::Gps).floor = of(Sensor::Depth).floor = 0.01;
   of(Sensor::Dvl).floor = 0.001;

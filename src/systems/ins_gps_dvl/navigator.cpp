@@ -43,6 +43,7 @@ ImuStep Navigator<Filter>::add(const ImuReading& reading) {
   audits_.clear();
   const ImuStep step{ins_.judge(reading), secondsBetween(ins_.stamp(), reading.stamp)};
   if (step.verdict == ImuVerdict::Implausible || step.verdict == ImuVerdict::OutOfOrder) return {step.verdict, 0};
+  gps_.reset();
   std::stable_sort(waiting_.begin(), waiting_.end(), before);
   gap_ = step.verdict == ImuVerdict::Bridged ? step.dt : 0;
   for (; !waiting_.empty() && waiting_.front().stamp <= reading.stamp; waiting_.pop_front()) {

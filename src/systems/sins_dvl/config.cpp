@@ -55,8 +55,6 @@ void readParticles(YamlSection yaml, UnscentedParticleOptions& particles) {
 /// A fix only starts this system, and its attitude may be far off.
 Settings::Settings() {
   shared.session.alignment.fixes_aid = false;
-  shared.session.config.parameters.start_tilt = 0.5 * kRadPerDeg;
-  shared.session.config.parameters.start_heading = 5 * kRadPerDeg;
   shared.of(ins::Sensor::Dvl).white = config.parameters.dvl_white;
   config.imu = shared.session.config.imu;
 }
