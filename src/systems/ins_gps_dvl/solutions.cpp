@@ -57,7 +57,8 @@ std::optional<NavigationSolution> solutionOf(const Navigator<Filter>& navigator,
       break;
     case Source::Smooth: solution.state = navigator.smooth(); break;
     case Source::Gps:
-      if (!navigator.gps() || navigator.gps()->stamp != solution.stamp) return std::nullopt;
+      if (!navigator.gps()) return std::nullopt;
+      solution.stamp = navigator.gps()->stamp;
       solution.state = navigator.gps()->state;
       solution.has_velocity = solution.has_attitude = false;
       solution.rate_body.reset();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "sas_motion/systems/ins_gps_dvl/estimator.hpp"
 #include "sas_motion/systems/ins_gps_dvl/simulator.hpp"
 #include "support.hpp"
 
@@ -131,6 +132,30 @@ TEST(InsNavigator, ErrorsAreAsLargeAsItsCovarianceSays) {
     EXPECT_GT(nees(group), band.lower) << "group " << group;
     EXPECT_LT(nees(group), band.upper) << "group " << group;
   }
+}
+
+TEST(InsNavigator, TheSolutionByGnssAloneHasTheStampsOfItsFixes) {
+  // GIVEN fixes whose stamps lie between those of the IMU
+  Scenario scenario = shortScenario(60);
+  scenario.sensor(Sensor::Gps).rate = 0.93;
+  const Recording recording = recordingOf(scenario, 5);
+  Config config;
+  config.parameters = scenario.parameters;
+  const auto estimator = makeEstimator("gps", config);
+  estimator->start(recording.start, 0);
+  Output output;
+  auto next = recording.aiding.begin();
+  std::vector<Stamp> fixes, solutions;
+  for (const auto& reading : recording.imu) {
+    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) {
+      if (next->reading.sensor == Sensor::Gps) fixes.push_back(next->reading.stamp);
+      estimator->process(next->reading, output);
+    }
+    estimator->process(reading, output);
+  }
+  for (const auto& solution : output.solutions) solutions.push_back(solution.stamp);
+  EXPECT_GT(fixes.size(), 50u);
+  EXPECT_EQ(solutions, fixes);
 }
 
 TEST(InsNavigator, TakesReadingsBetweenThoseOfTheInertialUnit) {

@@ -61,13 +61,14 @@ class Navigator {
   NavigationState fused() const { return corrected(ins_.state(), belief_.mean, model_.unit()); }
   /// Of the body over the ground; body [rad/s].
   Vector<3> rate_body() const { return rateOverGround(ins_.state(), ins_.rate_body()); }
-  /// The position of the INS by the last fix, and by dead reckoning with the DVL, each without its estimated errors;
-  /// the attitude is the fused one.
+  /// The position of the INS by the fix that the last reading of the IMU let be fused, at the fix's own stamp; nothing where
+  /// there was none. Its estimated errors are taken out; the attitude is the fused one.
   struct Fix {
     Stamp stamp = 0;
     NavigationState state;
   };
   const std::optional<Fix>& gps() const { return gps_; }
+  /// The position by dead reckoning with the DVL, likewise.
   NavigationState dvl() const;
   /// For imaging: without the jumps of readings.
   NavigationState smooth() const { return smooth_.state(); }

@@ -88,6 +88,8 @@ TEST(InsConversions, WhatAnInertialUnitDoesNotSayIsLeftOut) {
   EXPECT_TRUE(readingOf(imu, pose(0, 0, 0), settings)->attitude);
   EXPECT_EQ(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma,
             settings.session.config.parameters.start_heading);
+  EXPECT_GT(readingOf(imu, pose(0, 0, 0), settings)->attitude->tilt_sigma, 0.1 * kRadPerDeg) << "zeros: not known";
+  EXPECT_GT(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma, 1 * kRadPerDeg);
   imu.orientation_covariance[8] = 0.04;
   EXPECT_EQ(readingOf(imu, pose(0, 0, 0), settings)->attitude->heading_sigma, 0.2);
   imu.orientation_covariance[8] = 1e6;  // as many say that they do not know
