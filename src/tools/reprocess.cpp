@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // reprocess IN.bag...: estimators over recorded bags.
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +15,8 @@
 #include <set>
 #include <thread>
 
+#include "bag/bag_reader.hpp"
+#include "bag/reprocess.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/io/fingerprint.hpp"
 #include "systems/registry.hpp"

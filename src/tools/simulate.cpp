@@ -4,9 +4,9 @@
 // simulate SCENARIO.yaml -o OUT.bag: a scenario to a bag with sensors and truth.
 #include <optional>
 
-#include "main_guard.hpp"
-#include "progress.hpp"
 #include "systems/registry.hpp"
+#include "tools/main_guard.hpp"
+#include "tools/progress.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 namespace sas_motion::ins {
 
-Run::Run(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory)
+EstimatorRun::Run(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory)
     : options_(options),
       factory_(std::move(factory)),
       queue_(options.lag, options.max_gap),
@@ -22,7 +22,7 @@ Run::Run(const SessionOptions& options, const std::vector<std::string>& names, E
   }
 }
 
-ReadingQueue::Answer Run::process(const Reading& reading) {
+ReadingQueue::Answer EstimatorRun::process(const Reading& reading) {
   const auto answer = queue_.insert(reading);
   if (answer == ReadingQueue::Answer::ClockSet)
     startAnew();
@@ -32,7 +32,7 @@ ReadingQueue::Answer Run::process(const Reading& reading) {
   return answer;
 }
 
-void Run::refuse(const Reading& reading, ReadingQueue::Answer answer) {
+void EstimatorRun::refuse(const Reading& reading, ReadingQueue::Answer answer) {
   using Answer = ReadingQueue::Answer;
   const auto* aiding = std::get_if<Aiding>(&reading);
   if (aiding && answer == Answer::Late) events_.push_back(refusal(*aiding, Verdict::Stale, "older than the lag"));
@@ -45,30 +45,30 @@ void Run::refuse(const Reading& reading, ReadingQueue::Answer answer) {
   inertial_.far += answer == Answer::Far;
 }
 
-void Run::settleAll() {
+void EstimatorRun::settleAll() {
   while (!queue_.open().empty()) alignment_.take(queue_.takeFirst(), events_);
 }
 
-void Run::startAnew() {
+void EstimatorRun::startAnew() {
   settleAll();
   queue_.restart();
   alignment_ = Alignment(options_.alignment, options_.config.parameters);
 }
 
-void Run::startAt(std::size_t lane, const Start& start) {
+void EstimatorRun::startAt(std::size_t lane, const Start& start) {
   while (!queue_.open().empty() && stampOf(queue_.open().front()) <= start.stamp)
     alignment_.take(queue_.takeFirst(), events_);
   feed();
   feed(lanes_[lane], start);
 }
 
-void Run::configure(const Config& config) {
+void EstimatorRun::configure(const Config& config) {
   options_.config = config;
   for (auto& lane : lanes_)
     if (lane.estimator) lane.estimator->configure(config);
 }
 
-void Run::feed() {
+void EstimatorRun::feed() {
   for (auto& lane : lanes_) {
     const double begin = cpuSeconds();
     for (const auto& event : events_) feed(lane, event);
@@ -77,7 +77,7 @@ void Run::feed() {
   events_.clear();
 }
 
-void Run::feed(Lane& lane, const Event& event) {
+void EstimatorRun::feed(Lane& lane, const Event& event) {
   if (const auto* audit = std::get_if<Audit>(&event)) {
     lane.output.audits.push_back(*audit);
   } else if (const auto* start = std::get_if<Start>(&event)) {
@@ -98,7 +98,7 @@ void Run::feed(Lane& lane, const Event& event) {
   }
 }
 
-void Run::count(const ImuReading& reading, ImuVerdict verdict) {
+void EstimatorRun::count(const ImuReading& reading, ImuVerdict verdict) {
   ++inertial_.verdicts[static_cast<std::size_t>(verdict)];
   if (verdict == ImuVerdict::OutOfOrder || verdict == ImuVerdict::Implausible) return;
   if (last_integrated_) {
@@ -109,7 +109,7 @@ void Run::count(const ImuReading& reading, ImuVerdict verdict) {
   last_integrated_ = reading.stamp;
 }
 
-void Run::finish() {
+void EstimatorRun::finish() {
   settleAll();
   feed();
   for (auto& lane : lanes_) {

@@ -57,7 +57,7 @@ void TowfishSession::reset() {
   }
 }
 
-void TowfishSession::takeSettled(std::size_t lane, const OutputFrame& frame, Output& output) {
+void TowfishSession::takeSettled(std::size_t lane, const OutputFrame& frame, sas_motion::Output& output) {
   auto& settled = lanes_[lane].output;
   for (const auto& estimate : settled.solutions) output.solutions.push_back(solutionOf(estimate, mapOf(frame)));
   output.audits.insert(output.audits.end(), settled.audits.begin(), settled.audits.end());

@@ -74,7 +74,7 @@ std::vector<Reading> without(std::vector<Reading> stream, const Unwanted& unwant
 /// The settled output of one estimator over a stream.
 inline Output settled(const std::vector<Reading>& stream, const SessionOptions& options,
                       const std::string& name = "ckf27") {
-  Run session(options, {name}, makeEstimator);
+  EstimatorRun session(options, {name}, makeEstimator);
   for (const auto& reading : stream) session.process(reading);
   session.finish();
   return session.lanes()[0].output;

@@ -127,7 +127,7 @@ TEST(Faults, WithoutAPositionOrAHeadingItStaysSilentAndSaysWhy) {
     const auto output = feed("kf", testing::configFor(scenario), measurements);
     EXPECT_TRUE(output.solutions.empty());
     EXPECT_EQ(testing::count(output, Verdict::Stale), measurements.size());
-    EXPECT_STREQ(output.audits.front().reason, "before the first position and heading");
+    EXPECT_EQ(output.audits.front().reason, "before the first position and heading");
   }
 }
 

@@ -64,12 +64,12 @@ class LiveRun {
   /// The end of the data, or a pause: settles everything that is still open.
   void finish();
 
-  /// As Run::startAt() and Run::configure().
+  /// As EstimatorRun::startAt() and EstimatorRun::configure().
   void startAt(std::size_t lane, const Start& start);
   void configure(const Config& config);
 
-  Run& run() { return run_; }
-  const Run& run() const { return run_; }
+  EstimatorRun& run() { return run_; }
+  const EstimatorRun& run() const { return run_; }
   /// Of the lane with this number; nothing before the start.
   const std::optional<NavigationSolution>& current(std::size_t lane) const { return heads_[lane].current(); }
   std::optional<NavigationSolution> at(std::size_t lane, Stamp stamp) const;
@@ -77,7 +77,7 @@ class LiveRun {
  private:
   void update(std::size_t lane, bool taken, std::size_t settled);
 
-  Run run_;
+  EstimatorRun run_;
   std::vector<Head> heads_;
   std::vector<std::uint64_t> starts_;  // of the lanes, that the heads know of
   bool keeps_present_;

@@ -40,10 +40,10 @@ struct InertialCounts {
 /// A run of estimators over readings that come in any order inside the lag, live or from a bag alike: puts them in time
 /// order, finds the start, and starts anew where the clock was set. What it says is settled: it depends on the readings
 /// alone and not on their order.
-class Run {
+class EstimatorRun {
  public:
   /// Throws std::invalid_argument where the factory knows no such estimator.
-  Run(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory);
+  EstimatorRun(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory);
 
   /// Takes a reading of any age, and returns what became of it. Data never throws.
   ReadingQueue::Answer process(const Reading& reading);

@@ -20,7 +20,7 @@ class NavigationSession final : public sas_motion::Session {
                     double output_rate, bool live);
 
   void process(const Reading& reading);
-  const Run& run() const { return live_->run(); }
+  const EstimatorRun& run() const { return live_->run(); }
 
   void feed() override;
   std::size_t unfed() const override { return run().unfed(); }

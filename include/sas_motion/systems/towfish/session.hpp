@@ -18,7 +18,7 @@ class TowfishSession final : public Session {
   std::size_t unfed() const override { return unfed_.size(); }
   void finish() override;
   void reset() override;
-  void takeSettled(std::size_t lane, const OutputFrame& frame, Output& output) override;
+  void takeSettled(std::size_t lane, const OutputFrame& frame, sas_motion::Output& output) override;
   std::optional<Solution> current(std::size_t lane, const OutputFrame& frame) const override;
   std::optional<Solution> at(std::size_t lane, const OutputFrame& frame, Stamp stamp) const override;
   std::string setState(std::size_t lane, const OutputFrame& frame, const StateRequest& request) override;

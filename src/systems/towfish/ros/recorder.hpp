@@ -4,6 +4,7 @@
 
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <sensor_msgs/Imu.h>
+#include <sensor_msgs/NavSatFix.h>
 
 #include <cstdint>
 #include <functional>

@@ -26,7 +26,7 @@ FilterUpdate updateOf(const usbl::Ping& ping, const usbl::Calibrator::Report& re
   audit.nis = report.nis;
   audit.weights = report.weights;
   audit.iterations = report.iterations;
-  return updateOf(audit);
+  return ros_side::updateOf(audit);
 }
 
 }  // namespace

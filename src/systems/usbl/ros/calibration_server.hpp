@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ros/serving.hpp"
+#include "sas_motion/math/angles.hpp"
 #include "sas_motion/systems/usbl/calibrator.hpp"
 #include "sas_motion/systems/usbl/observability.hpp"
 #include "systems/usbl/ros/ingest.hpp"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/usbl/ros/recorder.hpp"
 
+#include <nav_msgs/Odometry.h>
 #include <sas_motion/MeasurementLabel.h>
 #include <tf2_msgs/TFMessage.h>
 

@@ -7,7 +7,7 @@
 
 #include "bag/bag_output.hpp"
 #include "bag/reprocess.hpp"
-#include "odometry_in.hpp"
+#include "bag/odometry_in.hpp"
 #include "systems/ins_gps_dvl/ros/recorder.hpp"
 #include "systems/registry.hpp"
 #include "systems/ins_gps_dvl/stream.hpp"
