@@ -28,6 +28,7 @@
 #include "systems/ins_gps_dvl/campaign.hpp"
 #include "systems/ins_gps_dvl/graph/smoother.hpp"
 #include "systems/ins_gps_dvl/imaging_survey.hpp"
+#include "systems/ins_gps_dvl/run_scorer.hpp"
 
 namespace {
 
@@ -94,8 +95,7 @@ Followed follow(const Survey& survey, const std::string& name, const Recording& 
   for (const auto& aperture : survey.apertures)
     result.apertures.emplace_back(aperture, survey.images.aperture.longest_gap);
   const auto estimator = makeAnyEstimator(name, configOf(survey.scenario));
-  Output output;
-  replay(*estimator, recording, output, [&] {
+  replay(*estimator, recording, [&](const Output& output) {
     for (const auto& solution : output.solutions) {
       const Stamp stamp = solution.stamp;
       result.window.add(stamp, solution.state);
@@ -104,7 +104,6 @@ Followed follow(const Survey& survey, const std::string& name, const Recording& 
         result.velocity_errors.push_back(
             (solution.state.velocity_nav - survey.trajectory.at(secondsBetween(0, stamp)).state.velocity_nav).norm());
     }
-    output.clear();
   });
   if (!estimator->failure().empty()) fmt::print("  {}: {}\n", name, estimator->failure());
   return result;

@@ -12,7 +12,7 @@
 
 #include "sas_motion/math/statistics.hpp"
 #include "sas_motion/systems/usbl/observability.hpp"
-#include "systems/usbl/campaign.hpp"
+#include "systems/usbl/estimate.hpp"
 #include "systems/usbl/graph/batch.hpp"
 
 namespace {
@@ -33,20 +33,20 @@ NoiseLaw varying() {
   return law;
 }
 
-Campaign figureEight(const NoiseMix& noise) {
-  Campaign campaign;
-  campaign.scenario.track.centre = campaign.scenario.transponder_map.head<2>();
-  campaign.scenario.noise.fill(noise);
-  return campaign;
+Scenario figureEight(const NoiseMix& noise) {
+  Scenario scenario;
+  scenario.track.centre = scenario.transponder_map.head<2>();
+  scenario.noise.fill(noise);
+  return scenario;
 }
 
 /// The median over seeds of the estimated over the true variance of good noise, by time, channel by channel; then its
 /// worst and how often it is within 20 %.
 void follow(const std::string& law, const std::string& filter, const NoiseMix& noise, std::uint64_t seeds) {
-  const Campaign campaign = figureEight(noise);
+  const Scenario scenario = figureEight(noise);
   std::map<double, std::array<std::vector<double>, kChannels>> ratios;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed)
-    for (const auto& estimate : estimate(campaign, simulatePings(campaign.scenario, seed), filter, {}).estimates)
+    for (const auto& estimate : estimate({}, scenario, simulatePings(scenario, seed), filter, {}).estimates)
       for (std::size_t i = 0; i < kChannels; ++i)
         if (estimate.time > kSettled)
           ratios[estimate.time][i].push_back(estimate.noise(static_cast<Eigen::Index>(i)) /
@@ -66,21 +66,21 @@ void follow(const std::string& law, const std::string& filter, const NoiseMix& n
 
 /// How often all six errors at the end are within three reported standard deviations.
 void centredCircle(std::uint64_t seeds) {
-  Campaign campaign = figureEight(kOutliers);
-  campaign.scenario.track.kind = Track::Kind::Circle;
-  campaign.scenario.track.radius = 224;
+  Scenario scenario = figureEight(kOutliers);
+  scenario.track.kind = Track::Kind::Circle;
+  scenario.track.radius = 224;
   std::map<std::string, int> covered;
   int refused = 0;
   std::string verdict;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const auto pings = simulatePings(campaign.scenario, seed);
+    const auto pings = simulatePings(scenario, seed);
     Problem problem;
     for (const auto& labelled : pings) problem.pings.push_back(labelled.ping);
     for (const char* name : {"ckf", "vbckf", "hckf", "hvbckf", "batch"}) {
-      const auto estimates = estimate(campaign, pings, name, makeFitter).estimates;
+      const auto estimates = estimate({}, scenario, pings, name, makeFitter).estimates;
       if (estimates.empty()) continue;
       const auto& belief = estimates.back().belief;
-      const State error = belief.mean - campaign.scenario.truth.head<kStates>();
+      const State error = belief.mean - scenario.truth.head<kStates>();
       covered[name] += (error.array().abs() <= 3 * belief.covariance.diagonal().array().sqrt()).all();
       if (std::string(name) != "batch") continue;
       const auto found = observability(problem, Model::widened(belief.mean));

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "campaign/report.hpp"
+#include "evaluation/report.hpp"
 #include "sas_motion/imaging/focus_bench.hpp"
 
 namespace sas_motion::imaging {

@@ -10,7 +10,6 @@
 #include <set>
 #include <sstream>
 
-#include "campaign/systems.hpp"
 #include "sas_motion/io/fingerprint.hpp"
 
 namespace sas_motion {
@@ -34,11 +33,15 @@ std::string whatRunsDependOn(const std::string& file) {
   return all;
 }
 
+std::vector<std::string> namesOf(const CampaignReaders& readers) {
+  std::vector<std::string> names;
+  for (const auto& [name, reader] : readers) names.push_back(name);
+  return names;
+}
+
 }  // namespace
 
-Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& make,
-                      const usbl::FitterFactory& fitters, const ins::EstimatorFactory& make_ins,
-                      const sins::EstimatorFactory& make_sins) {
+Suite Suite::fromFile(const std::string& file, const CampaignReaders& readers) {
   auto yaml = YamlSection::fromFile(file);
   const std::string folder = std::filesystem::path(file).parent_path();
   Suite suite;
@@ -55,22 +58,10 @@ Suite Suite::fromFile(const std::string& file, const towfish::EstimatorFactory& 
     item.text("system", kind);
     if (name.empty()) item.fail("name", "is missing; give each campaign one");
     if (!names.insert(name).second) item.fail("name", fmt::format("is '{}' but another campaign has it", name));
-    if (kind == "towfish")
-      suite.campaigns.push_back(makeTowfishSystem(item, folder, make));
-    else if (kind == "constant_velocity")
-      suite.campaigns.push_back(makeConstantVelocitySystem(item));
-    else if (kind == "usbl")
-      suite.campaigns.push_back(makeUsblSystem(item, folder, fitters));
-    else if (kind == "ins_gps_dvl")
-      suite.campaigns.push_back(makeInsSystem(item, folder, make_ins));
-    else if (kind == "imaging")
-      suite.campaigns.push_back(makeImagingSystem(item, folder, make_ins));
-    else if (kind == "sins_dvl")
-      suite.campaigns.push_back(makeSinsSystem(item, folder, make_sins));
-    else
-      item.fail(
-          "system",
-          fmt::format("is '{}' but must be towfish, constant_velocity, usbl, ins_gps_dvl, imaging or sins_dvl", kind));
+    const auto reader = readers.find(kind);
+    if (reader == readers.end())
+      item.fail("system", fmt::format("is '{}' but must be one of {}", kind, fmt::join(namesOf(readers), ", ")));
+    suite.campaigns.push_back(reader->second(item, folder));
     suite.campaigns.back()->title = name;
     suite.campaigns.back()->kind = kind;
     item.finish();

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "campaign/system.hpp"
-#include "sas_motion/systems/sins_dvl/estimator.hpp"
-#include "sas_motion/systems/usbl/fitter.hpp"
-#include "systems/towfish/campaign.hpp"
+#include <map>
+
+#include "campaign/campaign.hpp"
 
 namespace sas_motion {
+
+/// Reads a campaign of one system; files that it names are relative to `folder`. Throws ConfigError.
+using CampaignReader = std::function<std::unique_ptr<Campaign>(YamlSection& yaml, const std::string& folder)>;
+/// By the system's name.
+using CampaignReaders = std::map<std::string, CampaignReader>;
 
 /// Campaigns over seeds: all that a benchmark runs.
 struct Suite {
@@ -15,18 +19,14 @@ struct Suite {
   std::string hash;  ///< of everything that a run depends on, but for the number of runs
   int runs = 100;    ///< seeds a law
   std::uint64_t first_seed = 1;
-  std::vector<std::unique_ptr<System>> campaigns;
+  std::vector<std::unique_ptr<Campaign>> campaigns;
 
-  /// Files named in a suite are relative to it; without `fitters`, `make_ins` and `make_sins`, campaigns of usbl,
-  /// ins_gps_dvl and sins_dvl have filters only. Throws ConfigError.
-  static Suite fromFile(const std::string& file, const towfish::EstimatorFactory& make,
-                        const usbl::FitterFactory& fitters = {},
-                        const ins::EstimatorFactory& make_ins = ins::makeEstimator,
-                        const sins::EstimatorFactory& make_sins = sins::makeEstimator);
+  /// Files named in a suite are relative to it. Throws ConfigError.
+  static Suite fromFile(const std::string& file, const CampaignReaders& readers);
 
   /// A run: tasks are numbered by campaign, law, then seed.
   struct Task {
-    const System* campaign;
+    const Campaign* campaign;
     std::size_t law;
     std::uint64_t seed;
   };

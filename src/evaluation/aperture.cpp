@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace sas_motion::towfish {
+namespace sas_motion {
 namespace {
 
 /// Sum of squares of y[begin, end) about its least-squares line over t.
@@ -50,4 +50,4 @@ ApertureError apertureError(const std::vector<double>& time, const std::vector<d
   return result;
 }
 
-}  // namespace sas_motion::towfish
+}  // namespace sas_motion

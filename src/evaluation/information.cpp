@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sas_motion/evaluation/noise_density.hpp"
+#include "evaluation/noise_density.hpp"
 #include "sas_motion/noise/noise_source.hpp"
 
 namespace sas_motion {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/evaluation/noise_density.hpp"
+#include "evaluation/noise_density.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,15 +4,30 @@
 
 #include <fmt/format.h>
 
+#include "systems/constant_velocity/campaign.hpp"
+#include "systems/ins_gps_dvl/campaign.hpp"
+#include "systems/ins_gps_dvl/graph/smoother.hpp"
 #include "systems/ins_gps_dvl/ros/recorder.hpp"
 #include "systems/ins_gps_dvl/ros/system.hpp"
+#include "systems/sins_dvl/campaign.hpp"
+#include "systems/sins_dvl/graph/estimators.hpp"
 #include "systems/sins_dvl/ros/system.hpp"
+#include "systems/towfish/campaign.hpp"
+#include "systems/towfish/graph/estimators.hpp"
 #include "systems/towfish/ros/recorder.hpp"
 #include "systems/towfish/ros/system.hpp"
+#include "systems/usbl/campaign.hpp"
+#include "systems/usbl/graph/batch.hpp"
 #include "systems/usbl/ros/recorder.hpp"
 
 namespace sas_motion {
 namespace {
+
+/// Reads campaigns with the estimators of a factory.
+template <class Read, class Factory>
+CampaignReader campaignBy(Read read, Factory make) {
+  return [=](YamlSection& yaml, const std::string& folder) { return read(yaml, folder, make); };
+}
 
 /// Plays a scenario by the recorder of its system.
 template <class Scenario, class Recorder>
@@ -40,10 +55,15 @@ const SystemRow& rowOf(YamlSection& yaml, std::string name, Member SystemRow::*m
 
 const std::vector<SystemRow>& systems() {
   static const std::vector<SystemRow> rows{
-      {"towfish", ros_side::openTowfish, record<towfish::Scenario, TowfishRecorder>},
-      {"ins_gps_dvl", ros_side::openInsGpsDvl, record<ins::Scenario, InsRecorder>},
-      {"sins_dvl", ros_side::openSinsDvl, record<sins::Scenario, InsRecorder>},
-      {"usbl", nullptr, record<usbl::Scenario, UsblRecorder>},
+      {"towfish", campaignBy(&towfish::readCampaign, &towfish::makeAnyEstimator), ros_side::openTowfish,
+       record<towfish::Scenario, TowfishRecorder>},
+      {"ins_gps_dvl", campaignBy(&ins::readCampaign, &ins::makeAnyEstimator), ros_side::openInsGpsDvl,
+       record<ins::Scenario, InsRecorder>},
+      {"sins_dvl", campaignBy(&sins::readCampaign, &sins::makeAnyEstimator), ros_side::openSinsDvl,
+       record<sins::Scenario, InsRecorder>},
+      {"usbl", campaignBy(&usbl::readCampaign, &usbl::makeFitter), nullptr, record<usbl::Scenario, UsblRecorder>},
+      {"constant_velocity", &constant_velocity::readCampaign, nullptr, nullptr},
+      {"imaging", campaignBy(&ins::readImagingCampaign, &ins::makeAnyEstimator), nullptr, nullptr},
   };
   return rows;
 }
@@ -51,6 +71,12 @@ const std::vector<SystemRow>& systems() {
 std::unique_ptr<ros_side::System> openSystem(const std::string& config, const std::string& otherwise) {
   auto yaml = config.empty() ? YamlSection::fromText("{}", "the built-in settings") : YamlSection::fromFile(config);
   return rowOf(yaml, otherwise, &SystemRow::open).open(yaml);
+}
+
+CampaignReaders campaignReaders() {
+  CampaignReaders readers;
+  for (const auto& row : systems()) readers[row.name] = row.campaign;
+  return readers;
 }
 
 void simulate(const SimulationRequest& request, ros_side::BagOutput& bag, const SimulationProgress& progress) {

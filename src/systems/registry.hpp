@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bag/bag_output.hpp"
+#include "campaign/suite.hpp"
 #include "ros/system.hpp"
 
 namespace sas_motion {
@@ -22,6 +23,7 @@ using SimulationProgress = std::function<void(double total, double passed)>;
 /// One system: everything that a tool or a nodelet needs to know of it. What a system has not is empty.
 struct SystemRow {
   const char* name;  ///< as `system:` in a file says it
+  CampaignReader campaign;
   std::unique_ptr<ros_side::System> (*open)(YamlSection& config);
   void (*simulate)(const SimulationRequest& request, ros_side::BagOutput& bag, const SimulationProgress& progress);
 };
@@ -30,6 +32,8 @@ const std::vector<SystemRow>& systems();
 /// The system that a configuration file is of, `otherwise` where it does not say; the built-in settings of that where
 /// no file is named. Throws ConfigError.
 std::unique_ptr<ros_side::System> openSystem(const std::string& config, const std::string& otherwise = "towfish");
+/// The readers of all systems' campaigns.
+CampaignReaders campaignReaders();
 /// Plays a scenario into a bag. Throws ConfigError.
 void simulate(const SimulationRequest& request, ros_side::BagOutput& bag, const SimulationProgress& progress);
 

@@ -13,12 +13,8 @@
 #include <thread>
 
 #include "campaign/ordered_tasks.hpp"
-#include "campaign/suite.hpp"
 #include "sas_motion/io/atomic_file.hpp"
-#include "systems/ins_gps_dvl/graph/smoother.hpp"
-#include "systems/sins_dvl/graph/estimators.hpp"
-#include "systems/towfish/graph/estimators.hpp"
-#include "systems/usbl/graph/batch.hpp"
+#include "systems/registry.hpp"
 #include "tools/focus_document.hpp"
 #include "tools/main_guard.hpp"
 
@@ -44,7 +40,7 @@ json planOf(const Suite& suite) {
             {"config_hash", suite.hash},     {"runs", suite.runs},  {"first_seed", suite.first_seed},
             {"tasks", suite.tasks()}};
   for (std::size_t i = 0; i < suite.campaigns.size(); ++i) {
-    const System& s = *suite.campaigns[i];
+    const Campaign& s = *suite.campaigns[i];
     json laws;
     for (const auto& law : s.laws)
       laws.push_back({{"name", law.name},
@@ -178,8 +174,7 @@ void writeImages(const Suite& suite, const std::string& folder) {
 }
 
 void run(const Options& options) {
-  Suite suite = Suite::fromFile(options.suite, towfish::makeAnyEstimator, usbl::makeFitter, ins::makeAnyEstimator,
-                                sins::makeAnyEstimator);
+  Suite suite = Suite::fromFile(options.suite, campaignReaders());
   if (options.runs > 0) suite.runs = options.runs;
   if (options.plan) fmt::print("{}\n", planOf(suite).dump());
   if (!options.tasks.empty()) printTasks(suite, options);

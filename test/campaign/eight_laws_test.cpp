@@ -11,7 +11,7 @@ namespace {
 
 Suite eightLaws(int runs) {
   Suite suite =
-      Suite::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/suites/eight_laws.yaml", towfish::makeEstimator);
+      Suite::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/suites/eight_laws.yaml", testing::readers());
   suite.runs = runs;
   suite.campaigns[0]->estimators = {"kf", "oracle_kf", "bank_kf"};
   return suite;

@@ -70,11 +70,11 @@ TEST(Suite, TheSuitesInTheRepositoryCanBeRead) {
   const auto any_sins = [](const std::string&, const sins::Config& config) {
     return sins::makeEstimator("ckf27", config);
   };
+  const auto readers = testing::readers(any_ins, any_sins, any, native);
   int suites = 0;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::path(SAS_MOTION_SOURCE_DIR) / "config" / "suites")) {
-    ASSERT_NO_THROW(EXPECT_GT(Suite::fromFile(entry.path(), any, native, any_ins, any_sins).tasks(), 0u))
-        << entry.path();
+    ASSERT_NO_THROW(EXPECT_GT(Suite::fromFile(entry.path(), readers).tasks(), 0u)) << entry.path();
     ++suites;
   }
   EXPECT_GE(suites, 4);

@@ -9,16 +9,37 @@
 #include "campaign/ordered_tasks.hpp"
 #include "campaign/suite.hpp"
 #include "support.hpp"
+#include "systems/constant_velocity/campaign.hpp"
+#include "systems/ins_gps_dvl/campaign.hpp"
+#include "systems/sins_dvl/campaign.hpp"
+#include "systems/towfish/campaign.hpp"
+#include "systems/usbl/campaign.hpp"
 
 namespace sas_motion::testing {
 
+/// Readers of every system's campaigns; without other factories, with the estimators that need no factor graph.
+inline CampaignReaders readers(const ins::EstimatorFactory& make_ins = ins::makeEstimator,
+                               const sins::EstimatorFactory& make_sins = sins::makeEstimator,
+                               const towfish::EstimatorFactory& make_towfish = towfish::makeEstimator,
+                               const usbl::FitterFactory& fitters = {}) {
+  using Yaml = YamlSection;
+  using Folder = std::string;
+  return {
+      {"towfish", [=](Yaml& yaml, const Folder& at) { return towfish::readCampaign(yaml, at, make_towfish); }},
+      {"constant_velocity", &constant_velocity::readCampaign},
+      {"usbl", [=](Yaml& yaml, const Folder& at) { return usbl::readCampaign(yaml, at, fitters); }},
+      {"ins_gps_dvl", [=](Yaml& yaml, const Folder& at) { return ins::readCampaign(yaml, at, make_ins); }},
+      {"imaging", [=](Yaml& yaml, const Folder& at) { return ins::readImagingCampaign(yaml, at, make_ins); }},
+      {"sins_dvl", [=](Yaml& yaml, const Folder& at) { return sins::readCampaign(yaml, at, make_sins); }},
+  };
+}
+
 /// A suite from text, read as a file of its own.
-inline Suite suiteOf(const std::string& text, const ins::EstimatorFactory& make_ins = ins::makeEstimator,
-                     const sins::EstimatorFactory& make_sins = sins::makeEstimator) {
+inline Suite suiteOf(const std::string& text, const CampaignReaders& by = readers()) {
   const auto path = std::filesystem::path(::testing::TempDir()) /
                     ("suite_" + std::to_string(std::hash<std::string>()(text)) + ".yaml");
   std::ofstream(path) << text;
-  return Suite::fromFile(path, towfish::makeEstimator, {}, make_ins, make_sins);
+  return Suite::fromFile(path, by);
 }
 
 /// A suite that is refused with a message that has this word.

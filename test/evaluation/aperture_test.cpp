@@ -6,7 +6,7 @@
 
 #include "support.hpp"
 
-namespace sas_motion::towfish {
+namespace sas_motion {
 namespace {
 
 struct Series {
@@ -74,4 +74,4 @@ TEST(Aperture, WithoutSpeedOrDataThereIsNone) {
 }
 
 }  // namespace
-}  // namespace sas_motion::towfish
+}  // namespace sas_motion

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "evaluation/noise_density.hpp"
 #include "noise/laws.hpp"
-#include "sas_motion/evaluation/noise_density.hpp"
 #include "sas_motion/noise/noise_source.hpp"
 #include "support.hpp"
 

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sas_motion/filters/linearized.hpp"
@@ -125,6 +127,17 @@ class MeanBound {
     double square = 0;
     for (const int state : states) square += sum_(state) / static_cast<double>(count_);
     return known_ && count_ > 0 ? std::optional<double>(std::sqrt(square)) : std::nullopt;
+  }
+  /// The same of groups of states by name; empty where one was not known at all.
+  std::vector<std::pair<std::string, double>> rmses(
+      const std::vector<std::pair<std::string, std::vector<int>>>& groups) const {
+    std::vector<std::pair<std::string, double>> bounds;
+    for (const auto& [name, states] : groups) {
+      const auto bound = rmse(states);
+      if (!bound) return {};
+      bounds.emplace_back(name, *bound);
+    }
+    return bounds;
   }
 
  private:

@@ -3,15 +3,13 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "campaign/systems.hpp"
 #include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/evaluation/information.hpp"
 #include "sas_motion/systems/ins_gps_dvl/simulator.hpp"
+#include "systems/ins_gps_dvl/campaign.hpp"
 
-namespace sas_motion {
+namespace sas_motion::ins {
 namespace {
-
-using namespace ins;
 
 constexpr double kStep = 0.2;  // longest step of the recursion [s]
 constexpr int kParts = 8;      // of a step, to average the motion over
@@ -29,7 +27,7 @@ ErrorModel::Motion meanMotion(const Trajectory& trajectory, double begin, double
   return motion;
 }
 
-/// The recursion along the true trajectory, for what is told of one recording.
+/// The recursion along the true trajectory, for the genie of one recording.
 class InsBound {
  public:
   InsBound(const Scenario& scenario, const Trajectory& trajectory)
@@ -85,7 +83,7 @@ class InsBound {
   std::array<MeasurementInformation, kSensors> information_;
 };
 
-/// Whether what is told differs from run to run.
+/// Whether the genie says different things from run to run.
 bool differsByRun(const Scenario& scenario) {
   for (const auto& sensor : scenario.sensors) {
     if (MeasurementInformation(sensor.noise).genie()) return true;
@@ -108,15 +106,15 @@ Named<double> insBound(const Scenario& scenario, double skip, const std::vector<
     if (!differsByRun(scenario)) break;
   }
   const Errors unit = ErrorModel(scenario.parameters, trajectory.at(0).state).unit();
-  Named<double> bounds = boundsOf<kStates>(scored, {{"position", {kPosition, kPosition + 1}},
-                                                    {"height", {kPosition + 2}},
-                                                    {"velocity", {kVelocity, kVelocity + 1, kVelocity + 2}},
-                                                    {"tilt", {kAttitude, kAttitude + 1}},
-                                                    {"heading", {kAttitude + 2}}});
+  Named<double> bounds = scored.rmses({{"position", {kPosition, kPosition + 1}},
+                                       {"height", {kPosition + 2}},
+                                       {"velocity", {kVelocity, kVelocity + 1, kVelocity + 2}},
+                                       {"tilt", {kAttitude, kAttitude + 1}},
+                                       {"heading", {kAttitude + 2}}});
   for (auto& [group, rmse] : bounds)
     if (group == "tilt" || group == "heading") rmse *= unit(kAttitude);
   if (const auto drift = outage.rmse({kPosition, kPosition + 1})) bounds.emplace_back("outage", *drift);
   return bounds;
 }
 
-}  // namespace sas_motion
+}  // namespace sas_motion::ins

@@ -4,59 +4,101 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include "sas_motion/io/cpu_time.hpp"
+#include "sas_motion/systems/ins_gps_dvl/solutions.hpp"
+#include "systems/ins_gps_dvl/run_scorer.hpp"
 
-#include "campaign/systems.hpp"
-
-namespace sas_motion {
-
-using namespace ins;
-
+namespace sas_motion::ins {
 namespace {
 
-/// `noise` is of GPS, DVL and DPC; `gps_outages` are added to the scenario's, `dpc` goes over its section.
-LawInfo readLaw(YamlSection& item, Scenario& scenario) {
-  std::string name;
-  item.text("name", name);
-  scenario.readDpc(item.section("dpc"));
-  if (item.has("noise"))
-    scenario.sensor(Sensor::Gps).noise = scenario.sensor(Sensor::Dvl).noise = scenario.sensor(Sensor::Dpc).noise =
-        Scenario::readNoise(item, "noise");
-  for (const auto& outage : Scenario::readOutages(item, "gps_outages"))
-    scenario.sensor(Sensor::Gps).outages.push_back(outage);
-  item.finish();
-  LawInfo law = lawInfo(name, scenario.sensor(Sensor::Gps).noise, {});
-  if (const auto& outages = scenario.sensor(Sensor::Gps).outages; !outages.empty()) {
-    for (const auto& outage : outages)
-      law.description += fmt::format(", no GPS from {} to {} s", outage.begin, outage.end);
-    law.epsilon = law.K = std::nullopt;
+/// Scores solutions of one filter beside each other: it runs once.
+template <class Filter>
+void follow(const Filter& filter, const NavigatorOptions& options, const Scenario& scenario, const Recording& recording,
+            const std::vector<std::pair<Source, RunScorer*>>& runs) {
+  Navigator<Filter> navigator(filter, scenario.parameters, recording.start, 0, options);
+  auto next = recording.aiding.begin();
+  double scoring = 0;
+  const double begin = cpuSeconds();
+  for (const auto& reading : recording.imu) {
+    auto labelled = next;  // what the navigator audits, in order
+    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next) navigator.add(next->reading);
+    navigator.add(reading);
+    const double since = cpuSeconds();
+    for (const auto& audit : navigator.audits()) {
+      for (const auto& [source, run] : runs) run->add(audit, *labelled);
+      ++labelled;
+    }
+    if (RunScorer::counts(secondsBetween(0, navigator.stamp())))
+      for (const auto& [source, run] : runs)
+        if (const auto solution = solutionOf(navigator, source)) run->add(*solution);
+    scoring += cpuSeconds() - since;
   }
-  return law;
+  const double seconds = cpuSeconds() - begin - scoring;
+  for (const auto& [source, run] : runs) run->scorer().setCost(seconds, recording.aiding.size());
 }
+
+class InsCampaign final : public Campaign {
+ public:
+  InsCampaign(YamlSection& yaml, const std::string& folder, EstimatorFactory make) : make_(std::move(make)) {
+    dimension = kStates;
+    const auto scenario = readScenario<Scenario>(yaml, folder);
+    readScoring(yaml, 120, [&](const std::string& name) { return findSolution(name) || make_(name, {}); });
+    scenarios_ = readLaws(yaml, scenario, &readLaw);
+  }
+
+  Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override {
+    return insBound(scenarios_[law], skip, seeds);
+  }
+
+ private:
+  std::vector<EstimatorScorer> score(std::size_t law, std::uint64_t seed) const override {
+    const Scenario& scenario = scenarios_[law];
+    const Trajectory trajectory(scenario.track, scenario.duration);
+    const Recording recording = simulate(scenario, trajectory, seed);
+    const Config config = configOf(scenario);
+    std::vector<RunScorer> runs;
+    for (const auto& name : estimators) runs.emplace_back(name, scenario, trajectory, skip);
+    for (const auto filter_kind : kFilterKinds) {
+      std::vector<std::pair<Source, RunScorer*>> mine;
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        if (const auto* solution = findSolution(estimators[i]); solution && solution->filter == filter_kind)
+          mine.emplace_back(solution->source, &runs[i]);
+      if (!mine.empty())
+        withFilter(filter_kind, config, [&](const auto& filter, const NavigatorOptions& options) {
+          follow(filter, options, scenario, recording, mine);
+        });
+    }
+    std::vector<EstimatorScorer> scorers;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (!findSolution(estimators[i])) runs[i].follow(*make_(estimators[i], config), recording);
+      scorers.push_back(std::move(runs[i].scorer()));
+    }
+    return scorers;
+  }
+
+  EstimatorFactory make_;
+  std::vector<Scenario> scenarios_;  // by law
+};
 
 }  // namespace
 
-std::vector<Scenario> readInsCampaign(YamlSection& campaign, const std::string& folder, System& system) {
-  std::string file;
-  campaign.text("scenario", file);
-  if (file.empty()) campaign.fail("scenario", "is missing; name a scenario file");
-  Scenario scenario = Scenario::fromFile(std::filesystem::path(folder) / file);
-  campaign.number("duration", scenario.duration, {1, 1e6});
-  system.duration = scenario.duration;
-  system.skip = 120;
-  campaign.number("skip", system.skip, {0, 1e6});
-  if (system.skip >= system.duration)
-    campaign.fail("skip",
-                  fmt::format("is {} but must be less than a run, which lasts {} s", system.skip, system.duration));
-  campaign.texts("estimators", system.estimators);
-  if (system.estimators.empty()) campaign.fail("estimators", "is missing; list at least one");
-  std::vector<Scenario> scenarios;
-  for (auto& item : campaign.list("laws")) {
-    scenarios.push_back(scenario);
-    system.laws.push_back(readLaw(item, scenarios.back()));
-  }
-  if (system.laws.empty()) campaign.fail("laws", "is missing; list at least one");
-  return scenarios;
+std::unique_ptr<Campaign> readCampaign(YamlSection& yaml, const std::string& folder, const EstimatorFactory& make) {
+  return std::make_unique<InsCampaign>(yaml, folder, make);
+}
+
+/// `noise` is of GPS, DVL and DPC; `gps_outages` are added to the scenario's, `dpc` goes over its section.
+LawInfo readLaw(YamlSection& yaml, const std::string& name, Scenario& scenario) {
+  auto& gps = scenario.sensor(Sensor::Gps);
+  scenario.readDpc(yaml.section("dpc"));
+  if (yaml.has("noise"))
+    gps.noise = scenario.sensor(Sensor::Dvl).noise = scenario.sensor(Sensor::Dpc).noise =
+        Scenario::readNoise(yaml, "noise");
+  for (const auto& outage : Scenario::readOutages(yaml, "gps_outages")) gps.outages.push_back(outage);
+  LawInfo law = lawInfo(name, gps.noise, {});
+  for (const auto& outage : gps.outages)
+    law.description += fmt::format(", no GPS from {} to {} s", outage.begin, outage.end);
+  if (!gps.outages.empty()) law.epsilon = law.K = std::nullopt;
+  return law;
 }
 
 Config configOf(const Scenario& scenario) {
@@ -66,17 +108,4 @@ Config configOf(const Scenario& scenario) {
   return config;
 }
 
-void replay(Estimator& estimator, const Recording& recording, Output& output, const std::function<void()>& after) {
-  estimator.start(recording.start, 0);
-  auto next = recording.aiding.begin();
-  for (const auto& reading : recording.imu) {
-    for (; next != recording.aiding.end() && next->reading.stamp <= reading.stamp; ++next)
-      estimator.process(next->reading, output);
-    estimator.process(reading, output);
-    after();
-  }
-  estimator.finish(output);
-  after();
-}
-
-}  // namespace sas_motion
+}  // namespace sas_motion::ins

@@ -2,26 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
-#include "campaign/system.hpp"
+#include "campaign/campaign.hpp"
 #include "sas_motion/systems/ins_gps_dvl/estimator.hpp"
-#include "sas_motion/systems/ins_gps_dvl/simulator.hpp"
+#include "sas_motion/systems/ins_gps_dvl/scenario.hpp"
 
-namespace sas_motion {
+namespace sas_motion::ins {
 
-/// Reads what all campaigns on the fusion of INS, GPS and DVL have: scenario, duration, skip, the estimators' names and
-/// the laws. Returns the scenario under each law. Throws ConfigError.
-std::vector<ins::Scenario> readInsCampaign(YamlSection& campaign, const std::string& folder, System& system);
+/// Reads one campaign on the fusion of INS, GPS and DVL; `folder` is where the files named in it are. Throws
+/// ConfigError.
+std::unique_ptr<Campaign> readCampaign(YamlSection& yaml, const std::string& folder, const EstimatorFactory& make);
+/// Reads one campaign that is scored by images. Fails where the build has no imaging.
+std::unique_ptr<Campaign> readImagingCampaign(YamlSection& yaml, const std::string& folder,
+                                              const EstimatorFactory& make);
 
-/// What an estimator of this scenario is told.
-ins::Config configOf(const ins::Scenario& scenario);
+/// Reads a law over a scenario.
+LawInfo readLaw(YamlSection& yaml, const std::string& name, Scenario& scenario);
 
-/// Feeds a recording in time order. What the estimator has to say is added to `output`; `after` is called behind each
-/// reading of the inertial unit and at the end, and may clear it.
-void replay(ins::Estimator& estimator, const ins::Recording& recording, ins::Output& output,
-            const std::function<void()>& after);
+/// The configuration of an estimator under a scenario.
+Config configOf(const Scenario& scenario);
 
-}  // namespace sas_motion
+/// The bound of the groups of the fusion of INS, GPS and DVL, see Campaign::bound(); "outage" is the position at the
+/// end of each.
+Named<double> insBound(const Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds);
+
+}  // namespace sas_motion::ins

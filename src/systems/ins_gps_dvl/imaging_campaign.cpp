@@ -4,56 +4,50 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "campaign/imaging_measures.hpp"
-#include "campaign/systems.hpp"
 #include "sas_motion/imaging/focus_config.hpp"
-#include "sas_motion/io/cpu_time.hpp"
 #include "systems/ins_gps_dvl/campaign.hpp"
 #include "systems/ins_gps_dvl/imaging_survey.hpp"
+#include "systems/ins_gps_dvl/run_scorer.hpp"
 
-namespace sas_motion {
+namespace sas_motion::ins {
 namespace {
 
-using namespace ins;
 using imaging::FocusBench;
 using imaging::FocusResult;
 
-const std::string kErrorFree = "error_free";  // truth at the stamps of the inertial unit: what lies between these costs
+const std::string kErrorFree =
+    "error_free";  // truth at the stamps of the IMU: shows the error of interpolation between them
 
-/// What one estimator says near every aperture.
+/// The solutions of one estimator near every aperture.
 struct Estimate {
   std::vector<ApertureTrack> tracks;
   std::string failure;
   double seconds = 0;  // of CPU
 };
 
-/// Surveys whose judge is the image: what a synthetic aperture sonar sees on their lines with each estimate of its
-/// track.
-class ImagingSystem final : public System {
+/// Surveys that are scored by images: those that a synthetic aperture sonar makes on their lines with each estimate of
+/// its track.
+class ImagingCampaign final : public Campaign {
  public:
-  ImagingSystem(YamlSection& campaign, const std::string& folder, const EstimatorFactory& make)
-      : scenarios_(readInsCampaign(campaign, folder, *this)),
-        make_(make),
-        trajectory_(scenarios_.front().track, duration) {
-    std::string file;
-    campaign.text("config", file);
-    if (file.empty()) campaign.fail("config", "is missing; name a file of settings for focus");
-    settings_ = imaging::readFocus((std::filesystem::path(folder) / file).string());
+  ImagingCampaign(YamlSection& yaml, const std::string& folder, EstimatorFactory make) : make_(std::move(make)) {
+    const auto scenario = readScenario<Scenario>(yaml, folder);
+    readScoring(yaml, 120, [&](const std::string& name) {
+      return name == kErrorFree || make_(name, configOf(scenario)) != nullptr;
+    });
+    scenarios_ = readLaws(yaml, scenario, &readLaw);
+    trajectory_.emplace(scenario.track, duration);
+    settings_ = imaging::readFocus(fileOf(yaml, "config", folder));
     int windows = 4;
-    campaign.integer("windows", windows, 1, 1000);
-    apertures_ = chooseApertures(scenarios_.front(), trajectory_, settings_, skip, windows);
+    yaml.integer("windows", windows, 1, 1000);
+    apertures_ = chooseApertures(scenarios_.front(), *trajectory_, settings_, skip, windows);
     if (apertures_.empty())
-      campaign.fail("duration",
-                    fmt::format("is {} s but no aperture on a straight line is in it behind skip", duration));
-    for (const auto& name : estimators)
-      if (name != kErrorFree && !make(name, configOf(scenarios_.front())))
-        campaign.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));
+      yaml.fail("duration", fmt::format("is {} s but no aperture on a straight line is in it behind skip", duration));
   }
 
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
-    const Recording recording = simulate(scenarios_[law], trajectory_, seed);
+    const Recording recording = simulate(scenarios_[law], *trajectory_, seed);
     const auto estimates = estimatesOf(scenarios_[law], recording);
     std::vector<std::vector<double>> positions(estimators.size());
     std::vector<EstimatorReport> reports(estimators.size());
@@ -79,7 +73,7 @@ class ImagingSystem final : public System {
         title + ", " + laws[law].name, settings_, imaging::targetPlaces(settings_), windowOf(aperture), {}};
     FocusBench bench(settings_, aperture.times, aperture.truth, 1);
     result.trajectories.push_back(focusAlong(bench, aperture.truth, folder, "truth", false));
-    const auto estimates = estimatesOf(scenarios_[law], simulate(scenarios_[law], trajectory_, seed));
+    const auto estimates = estimatesOf(scenarios_[law], simulate(scenarios_[law], *trajectory_, seed));
     for (std::size_t i = 0; i < estimators.size(); ++i) {
       const auto poses = estimates[i].tracks.front().poses(settings_.sonar.altitude);
       if (estimators[i] != kErrorFree && poses)
@@ -87,9 +81,6 @@ class ImagingSystem final : public System {
     }
     return result;
   }
-
-  Named<Trace> trace(std::size_t, std::uint64_t) const override { return {}; }
-  Named<double> bound(std::size_t, const std::vector<std::uint64_t>&) const override { return {}; }
 
  private:
   static imaging::FocusWindow windowOf(const Aperture& aperture) {
@@ -116,7 +107,7 @@ class ImagingSystem final : public System {
   Estimate errorFree(const Recording& recording) const {
     Estimate result{emptyTracks(), "", 0};
     for (const auto& reading : recording.imu) {
-      const NavigationState truth = trajectory_.at(secondsBetween(0, reading.stamp)).state;
+      const NavigationState truth = trajectory_->at(secondsBetween(0, reading.stamp)).state;
       for (auto& track : result.tracks) track.add(reading.stamp, truth);
     }
     return result;
@@ -125,14 +116,10 @@ class ImagingSystem final : public System {
   Estimate estimate(const std::string& name, const Scenario& scenario, const Recording& recording) const {
     Estimate result{emptyTracks(), "", 0};
     const auto estimator = make_(name, configOf(scenario));
-    const double begin = cpuSeconds();
-    Output output;
-    replay(*estimator, recording, output, [&] {
+    result.seconds = replay(*estimator, recording, [&](const Output& output) {
       for (const auto& solution : output.solutions)
         for (auto& track : result.tracks) track.add(solution.stamp, solution.state);
-      output.clear();
     });
-    result.seconds = cpuSeconds() - begin;
     result.failure = estimator->failure();
     return result;
   }
@@ -143,22 +130,22 @@ class ImagingSystem final : public System {
     report.samples = positions.size();
     report.diverged = positions.empty() || !estimate.failure.empty() ||
                       !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
-    if (!positions.empty()) report.errors.emplace_back("position", towfish::summarize(positions));
+    if (!positions.empty()) report.errors.emplace_back("position", summarize(positions));
     report.microseconds = 1e6 * estimate.seconds / static_cast<double>(std::max<std::size_t>(1, readings));
   }
 
   std::vector<Scenario> scenarios_;  // by law
   EstimatorFactory make_;
-  Trajectory trajectory_;
+  std::optional<Trajectory> trajectory_;
   imaging::FocusSettings settings_;
   std::vector<Aperture> apertures_;
 };
 
 }  // namespace
 
-std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string& folder,
-                                          const EstimatorFactory& make) {
-  return std::make_unique<ImagingSystem>(campaign, folder, make);
+std::unique_ptr<Campaign> readImagingCampaign(YamlSection& yaml, const std::string& folder,
+                                              const EstimatorFactory& make) {
+  return std::make_unique<ImagingCampaign>(yaml, folder, make);
 }
 
-}  // namespace sas_motion
+}  // namespace sas_motion::ins

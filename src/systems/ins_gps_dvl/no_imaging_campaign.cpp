@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "campaign/systems.hpp"
+#include "systems/ins_gps_dvl/campaign.hpp"
 
-namespace sas_motion {
+namespace sas_motion::ins {
 
-std::unique_ptr<System> makeImagingSystem(YamlSection& campaign, const std::string&, const ins::EstimatorFactory&) {
-  campaign.fail(
+std::unique_ptr<Campaign> readImagingCampaign(YamlSection& yaml, const std::string&, const EstimatorFactory&) {
+  yaml.fail(
       "system",
       "is imaging, which this build has not; install Highway and KissFFT (libhwy-dev, libkissfft-dev) and build again");
 }
 
-}  // namespace sas_motion
+}  // namespace sas_motion::ins

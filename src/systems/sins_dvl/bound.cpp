@@ -3,16 +3,14 @@
 #include <cmath>
 #include <limits>
 
-#include "campaign/systems.hpp"
 #include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/evaluation/information.hpp"
 #include "sas_motion/navigation/earth.hpp"
-#include "sas_motion/systems/sins_dvl/scenario.hpp"
+#include "systems/sins_dvl/campaign.hpp"
 
-namespace sas_motion {
+namespace sas_motion::sins {
 namespace {
 
-using namespace sins;
 using Errors = Vector<kStates>;
 using ErrorMatrix = Matrix<kStates>;
 
@@ -90,13 +88,14 @@ class SinsBound {
                       : Vector<9>(Vector<9>::Constant(std::numeric_limits<double>::quiet_NaN()));
   }
 
-  /// Readings of the unit that end after `to` are left for the next step.
+  /// Readings of the IMU that end after `to` are left for the next step.
   double move(PosteriorBound<kStates>& bound, double from, double to, std::size_t& next) const {
-    Preintegration felt;
+    Preintegration preintegrated;
     for (; next < imu_.size() && secondsBetween(0, imu_[next].stamp) <= to + 1e-9; ++next)
-      felt.add(imu_[next].rate_body, imu_[next].force_body, secondsBetween(imu_[next - 1].stamp, imu_[next].stamp));
-    if (!(felt.duration() > 0)) return to;
-    const Motion<kStates> motion(scenario_.parameters, trajectory_.at(from).state, felt);
+      preintegrated.add(imu_[next].rate_body, imu_[next].force_body,
+                        secondsBetween(imu_[next - 1].stamp, imu_[next].stamp));
+    if (!(preintegrated.duration() > 0)) return to;
+    const Motion<kStates> motion(scenario_.parameters, trajectory_.at(from).state, preintegrated);
     Transition<kStates> step;
     step.F = unit_.cwiseInverse().asDiagonal() * derivative<kStates>(motion, unit_);
     const ErrorMatrix root = unit_.cwiseInverse().asDiagonal() * motion.noiseRoot();
@@ -137,7 +136,7 @@ class SinsBound {
 
 }  // namespace
 
-Named<double> sinsBound(const sins::Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds) {
+Named<double> sinsBound(const Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds) {
   const SinsBound bound(scenario);
   const ins::Trajectory trajectory(scenario.track, scenario.duration);
   MeanSquares scored, end;
@@ -154,4 +153,4 @@ Named<double> sinsBound(const sins::Scenario& scenario, double skip, const std::
           {"drift_percent", 100 * end.rms(3, 2) / (scenario.track.speed * scenario.duration)}};
 }
 
-}  // namespace sas_motion
+}  // namespace sas_motion::sins

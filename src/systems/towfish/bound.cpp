@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "campaign/systems.hpp"
+#include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/evaluation/information.hpp"
+#include "systems/towfish/campaign.hpp"
 
-namespace sas_motion {
+namespace sas_motion::towfish {
 namespace {
 
-using namespace towfish;
-
-/// What the readings of each sensor tell, and the process noise.
+/// The information of the readings of each sensor, and of the process noise.
 struct Told {
   std::array<MeasurementInformation, kSensors> sensors;
   ProcessInformation process;
@@ -93,7 +92,6 @@ class RunBound {
 
 }  // namespace
 
-/// Nothing for a survey, whose truth is not drawn from the model.
 Named<double> towfishBound(const Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds) {
   if (scenario.kind != Scenario::Kind::RandomWalk) return {};
   const Told told = toldOf(scenario);
@@ -108,10 +106,10 @@ Named<double> towfishBound(const Scenario& scenario, double skip, const std::vec
     bound.follow(run, Simulator::kStart + stampFromSeconds(skip), mean);
     if (once) break;
   }
-  return boundsOf<kStates>(mean, {{"position", {kNorth, kEast}},
-                                  {"heading", {kHeading}},
-                                  {"speed", {kSpeed}},
-                                  {"current", {kCurrentNorth, kCurrentEast}}});
+  return mean.rmses({{"position", {kNorth, kEast}},
+                     {"heading", {kHeading}},
+                     {"speed", {kSpeed}},
+                     {"current", {kCurrentNorth, kCurrentEast}}});
 }
 
-}  // namespace sas_motion
+}  // namespace sas_motion::towfish

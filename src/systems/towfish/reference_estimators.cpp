@@ -5,13 +5,14 @@
 #include <algorithm>
 
 #include "sas_motion/evaluation/law_aware.hpp"
+#include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/systems/towfish/filter_timeline.hpp"
 
 namespace sas_motion::towfish {
 namespace {
 
 /// The model's motion, simulated step by simulated step where the noise of one was not the good one.
-Motion toldMotion(const Model& model, const SimulatedRun& run) {
+Motion trueMotion(const Model& model, const SimulatedRun& run) {
   return [model, &run](const StateVector& mean, const Input& input, Stamp from, Stamp to) {
     const auto good = [&](std::size_t k) {
       return run.processVariance().empty() || run.processVariance()[k] == StateVector::Ones();
@@ -38,21 +39,21 @@ double fastestRate(const Scenario& scenario) {
   return rate;
 }
 
-}  // namespace
-
-std::unique_ptr<Estimator> makeOracle(const Campaign& campaign, const SimulatedRun& run) {
+std::unique_ptr<Estimator> makeOracle(const Config& config, const SimulatedRun& run) {
   using Filter = KalmanFilter<kStates>;
-  return std::make_unique<FilterTimeline<Filter>>([](const Config&) { return Filter(); }, campaign.config,
-                                                  toldMotion(Model(campaign.config.model), run));
+  return std::make_unique<FilterTimeline<Filter>>([](const Config&) { return Filter(); }, config,
+                                                  trueMotion(Model(config.model), run));
 }
 
-Measurement toldTheTruth(const LabelledMeasurement& labelled) {
+/// The reading with the variance that it was drawn with.
+Measurement withTrueVariance(const LabelledMeasurement& labelled) {
   Measurement z = labelled.z;
   for (int row = 0; row < 2; ++row) z.variance(row) *= labelled.variance[static_cast<std::size_t>(row)];
   return z;
 }
 
-std::unique_ptr<Estimator> makeBayesReference(const Campaign& campaign, const Scenario& scenario) {
+/// The position's law stands for all sensors; only rows that have it have its spells.
+std::unique_ptr<Estimator> makeBayesReference(const Config& config, const Scenario& scenario) {
   const auto& law = scenario.sensor(Sensor::Position).noise;
   auto options = lawAware(law, scenario.process, 1 / fastestRate(scenario));
   options.mode.common = true;
@@ -62,8 +63,34 @@ std::unique_ptr<Estimator> makeBayesReference(const Campaign& campaign, const Sc
       for (int row = 0; row < rowsOf(sensor); ++row)
         options.mode.rows |= 1U << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));
   using Filter = GaussianSumFilter<kStates>;
-  return std::make_unique<FilterTimeline<Filter>>([options](const Config&) { return Filter(options); },
-                                                  campaign.config);
+  return std::make_unique<FilterTimeline<Filter>>([options](const Config&) { return Filter(options); }, config);
+}
+
+}  // namespace
+
+double estimate(const Config& config, const Scenario& scenario, const SimulatedRun& run, const std::string& name,
+                const EstimatorFactory& make, const Listener& listen) {
+  constexpr std::size_t kPart = 256;  // measurements
+  const bool oracle = name == kOracle;
+  const auto estimator = oracle                    ? makeOracle(config, run)
+                         : name == kBayesReference ? makeBayesReference(config, scenario)
+                                                   : make(name, config);
+  Output output;
+  double seconds = 0, begin = cpuSeconds();
+  const auto handOver = [&] {
+    seconds += cpuSeconds() - begin;
+    listen(output);
+    output.clear();
+    begin = cpuSeconds();
+  };
+  std::size_t taken = 0;
+  for (const auto& labelled : run.measurements()) {
+    estimator->process(oracle ? withTrueVariance(labelled) : labelled.z, output);
+    if (++taken % kPart == 0) handOver();
+  }
+  estimator->finish(output);
+  handOver();
+  return seconds;
 }
 
 }  // namespace sas_motion::towfish

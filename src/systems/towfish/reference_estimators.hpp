@@ -2,21 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
+#include <array>
+#include <functional>
 
-#include "systems/towfish/campaign.hpp"
+#include "sas_motion/systems/towfish/estimator.hpp"
+#include "sas_motion/systems/towfish/simulated_run.hpp"
 
+/// Estimators that serve as reference: they know what the simulator drew, or by which law.
 namespace sas_motion::towfish {
 
-/// The oracle of a run, which must outlive it: a Kalman filter that is told the variance of each draw of the process
-/// noise. What it is told of a reading's comes with toldTheTruth(). Truth that is not drawn from the model has no such
-/// draws; it then has the model's own noise.
-std::unique_ptr<Estimator> makeOracle(const Campaign& campaign, const SimulatedRun& run);
+/// The sensors whose noise a law may change.
+constexpr std::array<Sensor, 3> kNoisy{Sensor::Position, Sensor::Heading, Sensor::Speed};
 
-/// A reading with the variance that it was drawn with.
-Measurement toldTheTruth(const LabelledMeasurement& labelled);
+/// The Kalman filter with the true variance of each row and of each draw of process noise. Truth that is not drawn from
+/// the model has no such draws; the filter then has the model's own process noise.
+constexpr const char* kOracle = "oracle_kf";
+/// The Gaussian sum that knows the law of the position's noise, but not which readings are bad.
+constexpr const char* kBayesReference = "bayes_reference";
 
-/// The law-aware reference: told the position's law for all sensors, and which rows have its spells.
-std::unique_ptr<Estimator> makeBayesReference(const Campaign& campaign, const Scenario& scenario);
+/// Takes the output of an estimator part by part: a whole run of every estimator would not stay in the cache.
+using Listener = std::function<void(const Output&)>;
+
+/// Lets an estimator, a reference or one that `make` knows, work on a run under `scenario`; returns the CPU time that
+/// it took, without the listener's [s].
+double estimate(const Config& config, const Scenario& scenario, const SimulatedRun& run, const std::string& name,
+                const EstimatorFactory& make, const Listener& listen);
 
 }  // namespace sas_motion::towfish

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "sas_motion/evaluation/scores.hpp"
 #include "support.hpp"
 #include "systems/ins_gps_dvl/stream.hpp"
 

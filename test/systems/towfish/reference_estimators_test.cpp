@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What estimators are measured against: the oracle, and the bound where a genie speaks.
+// The references that estimators are compared with: the oracle, and the bound with a genie.
 #include "systems/towfish/reference_estimators.hpp"
 
 #include <numeric>
@@ -56,19 +56,19 @@ TEST(Oracle, TakesEachStepOfTheProcessWhereReadingsAreSecondsApart) {
   auto scenario = testing::zhu2007(300);
   for (const auto sensor : kNoisy) scenario.sensor(sensor).rate = 0.5;
   scenario.process = testing::contaminated(0.1, 20);  // ten draws for each reading
-  Campaign campaign;
-  campaign.scenario = scenario;
-  campaign.config = testing::configFor(scenario);
+  const Config config = testing::configFor(scenario);
   std::cout << "seeds 1 to 20\n";
   std::map<std::string, double> squares, normalised, count;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const SimulatedRun run(scenario, seed);
     for (const std::string name : {"kf", kOracle})
-      estimate(campaign, scenario, run, name, makeEstimator, [&](const Output& output) {
+      estimate(config, scenario, run, name, makeEstimator, [&](const Output& output) {
         for (const auto& told : output.solutions) {
           if (told.stamp < Simulator::kStart + 20 * kNanosecondsPerSecond) continue;
-          squares[name] += (told.belief.mean - run.at(told.stamp).state).head<2>().squaredNorm();
-          normalised[name] += normalisedSquare(told, run.at(told.stamp)) / kStates;
+          squares[name] += (told.belief.mean - run.at(told.stamp)).head<2>().squaredNorm();
+          normalised[name] += normalisedSquare<kStates>(Model::difference(told.belief.mean, run.at(told.stamp)),
+                                                        told.belief.covariance) /
+                              kStates;
           ++count[name];
         }
       });
@@ -100,20 +100,18 @@ TEST(TowfishBound, CountsTheReadingsOfEachRunThatAreThere) {
 
 TEST(Estimate, HandsOverARunInPartsThatMakeItUp) {
   const auto scenario = testing::zhu2007(60);
-  Campaign campaign;
-  campaign.scenario = scenario;
-  campaign.config = testing::configFor(scenario);
+  const Config config = testing::configFor(scenario);
   const SimulatedRun run(scenario, 5);
   Output joined;
   int parts = 0;
-  const double seconds = estimate(campaign, scenario, run, "kf", makeEstimator, [&](const Output& part) {
+  const double seconds = estimate(config, scenario, run, "kf", makeEstimator, [&](const Output& part) {
     joined.solutions.insert(joined.solutions.end(), part.solutions.begin(), part.solutions.end());
     joined.audits.insert(joined.audits.end(), part.audits.begin(), part.audits.end());
     ++parts;
   });
   std::vector<Measurement> measurements;
   for (const auto& labelled : run.measurements()) measurements.push_back(labelled.z);
-  const auto whole = testing::feed("kf", campaign.config, measurements);
+  const auto whole = testing::feed("kf", config, measurements);
   testing::expectSameEstimates(joined, whole, "in parts");
   EXPECT_EQ(joined.audits.size(), whole.audits.size());
   EXPECT_GT(parts, 3);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sas_motion/evaluation/scores.hpp"
+#include "sas_motion/estimate/audit.hpp"
 #include "sas_motion/systems/towfish/simulator.hpp"
 
 namespace sas_motion::towfish {
@@ -32,7 +32,7 @@ class SimulatedRun {
   /// The place of a stamp among the truths.
   std::size_t index(Stamp stamp) const { return static_cast<std::size_t>((stamp - Simulator::kStart) / step_); }
   /// Truth at a stamp of a measurement.
-  Reference at(Stamp stamp) const { return {truth_[index(stamp)]}; }
+  const StateVector& at(Stamp stamp) const { return truth_[index(stamp)]; }
   /// Whether any row of the measurement that an audit is of was an outlier.
   bool outlier(const Audit& audit) const {
     auto found = measurements_.begin() + static_cast<std::ptrdiff_t>(first_[index(audit.stamp)]);

@@ -258,7 +258,7 @@ TEST(InsSmoother, CampaignsScoreItBesideTheFilters) {
       "/config/scenarios/ins/survey.yaml, duration: 60, skip: 20, estimators: [robust_ckf27, batch, fixed_lag], laws: "
       "[{name: bad, noise: {law: contaminated, "
       "epsilon: 0.1, K: 30}}]}]}",
-      makeAnyEstimator);
+      sas_motion::testing::readers(makeAnyEstimator));
   const auto reports = suite.campaigns[0]->run(0, 1);
   ASSERT_EQ(reports.size(), 3U);
   for (const auto& report : reports) {

@@ -43,7 +43,7 @@ std::string suiteText(const std::string& scenario, double duration, int runs, co
 }
 
 Suite suiteOf(const std::string& text) {
-  return sas_motion::testing::suiteOf(text, ins::makeEstimator, makeAnyEstimator);
+  return sas_motion::testing::suiteOf(text, sas_motion::testing::readers(ins::makeEstimator, makeAnyEstimator));
 }
 
 TEST(SinsEstimators, AnswerToEveryName) {
