@@ -192,7 +192,7 @@ TEST(InsSession, WhatIsLaterThanTheLagIsRefusedAndCounted) {
                                   [](const Audit& a) { return std::string(a.reason) == "older than the lag"; });
   ASSERT_NE(stale, output.audits.end());
   EXPECT_EQ(stale->verdict, Verdict::Stale);
-  EXPECT_EQ(stale->sensor, Sensor::Gps);
+  EXPECT_EQ(stale->sensor, sensorName(Sensor::Gps));
 }
 
 TEST(InsSession, DuplicatesChangeNothing) {
