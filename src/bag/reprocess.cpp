@@ -108,7 +108,7 @@ class BagRun {
       nothing &= writers_[i]->report().estimates == 0;
     }
     if (const std::string waits_for = run_->waitsFor(); nothing && !waits_for.empty())
-      throw std::runtime_error(fmt::format("{}: the estimators never started: {}", file, waits_for));
+      throw std::runtime_error(fmt::format("{}: estimation never started: {}", file, waits_for));
     report.warnings = run_->warnings();
   }
 

@@ -63,7 +63,7 @@ void diagnoseRun(const SystemRun& run, const MapSettings& settings, DiagnosticSt
     diagnoseSource(sources[i], run.inbox().counts(i), run.inbox().enabled(i), newest, settings, status);
   const std::string waits_for = run.waitsFor();
   status.add("start", waits_for.empty() ? "started" : "waiting: " + waits_for);
-  if (!waits_for.empty()) status.mergeSummary(Level::WARN, "the estimators have not started: " + waits_for);
+  if (!waits_for.empty()) status.mergeSummary(Level::WARN, "estimation has not started: " + waits_for);
   for (const auto& [key, value] : run.details()) status.add(key, value);
   for (const auto& warning : run.warnings()) status.mergeSummary(Level::WARN, warning);
 }
