@@ -22,6 +22,12 @@ struct LawInfo {
 /// How a law is named and plotted.
 LawInfo lawInfo(const std::string& name, const NoiseMix& measurement, const NoiseMix& process);
 
+/// The Kalman filter with the true variance of each row and of each draw of process noise. Truth that is not drawn from
+/// the model has no such draws; the filter then has the model's own process noise.
+constexpr const char* kOracle = "oracle_kf";
+/// The Gaussian sum that knows the law of the position's noise, but not which readings are bad.
+constexpr const char* kBayesReference = "bayes_reference";
+
 /// One system under several outlier laws, estimated by several estimators.
 class Campaign {
  public:

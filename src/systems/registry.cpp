@@ -11,6 +11,7 @@
 #include "systems/ins_gps_dvl/ros/system.hpp"
 #include "systems/sins_dvl/campaign.hpp"
 #include "systems/sins_dvl/graph/estimators.hpp"
+#include "systems/sins_dvl/ros/recorder.hpp"
 #include "systems/sins_dvl/ros/system.hpp"
 #include "systems/towfish/campaign.hpp"
 #include "systems/towfish/graph/estimators.hpp"
@@ -60,7 +61,7 @@ const std::vector<SystemRow>& systems() {
       {"ins_gps_dvl", campaignBy(&ins::readCampaign, &ins::makeAnyEstimator), ros_side::openInsGpsDvl,
        record<ins::Scenario, InsRecorder>},
       {"sins_dvl", campaignBy(&sins::readCampaign, &sins::makeAnyEstimator), ros_side::openSinsDvl,
-       record<sins::Scenario, InsRecorder>},
+       record<sins::Scenario, SinsRecorder>},
       {"usbl", campaignBy(&usbl::readCampaign, &usbl::makeFitter), nullptr, record<usbl::Scenario, UsblRecorder>},
       {"constant_velocity", &constant_velocity::readCampaign, nullptr, nullptr},
       {"imaging", campaignBy(&ins::readImagingCampaign, &ins::makeAnyEstimator), nullptr, nullptr},

@@ -12,13 +12,10 @@
 #include "sas_motion/noise/process_noise.hpp"
 #include "sas_motion/systems/constant_velocity/model.hpp"
 #include "sas_motion/systems/towfish/filter_by_name.hpp"
-#include "systems/towfish/reference_estimators.hpp"
 
 namespace sas_motion::constant_velocity {
 namespace {
 
-using towfish::kBayesReference;
-using towfish::kOracle;
 using State = Vector<kStates>;
 
 /// The noise of one law.

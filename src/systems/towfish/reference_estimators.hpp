@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 
+#include "campaign/campaign.hpp"
 #include "sas_motion/systems/towfish/estimator.hpp"
 #include "sas_motion/systems/towfish/simulated_run.hpp"
 
@@ -13,12 +14,6 @@ namespace sas_motion::towfish {
 
 /// The sensors whose noise a law may change.
 constexpr std::array<Sensor, 3> kNoisy{Sensor::Position, Sensor::Heading, Sensor::Speed};
-
-/// The Kalman filter with the true variance of each row and of each draw of process noise. Truth that is not drawn from
-/// the model has no such draws; the filter then has the model's own process noise.
-constexpr const char* kOracle = "oracle_kf";
-/// The Gaussian sum that knows the law of the position's noise, but not which readings are bad.
-constexpr const char* kBayesReference = "bayes_reference";
 
 /// Takes the output of an estimator part by part: a whole run of every estimator would not stay in the cache.
 using Listener = std::function<void(const Output&)>;

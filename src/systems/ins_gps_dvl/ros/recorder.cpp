@@ -38,11 +38,6 @@ InsRecorder::InsRecorder(const Scenario& scenario, std::uint64_t seed, BagOutput
     : InsRecorder(
           scenario, [&](const Trajectory& trajectory) { return simulate(scenario, trajectory, seed); }, true, bag) {}
 
-InsRecorder::InsRecorder(const sins::Scenario& scenario, std::uint64_t seed, BagOutput& bag)
-    : InsRecorder(
-          withoutGps(scenario),
-          [&](const Trajectory& trajectory) { return sins::simulate(scenario, trajectory, seed); }, false, bag) {}
-
 InsRecorder::InsRecorder(const Scenario& scenario, const Simulate& simulate, bool with_gps, BagOutput& bag)
     : scenario_(scenario),
       trajectory_(scenario.track, scenario.duration),

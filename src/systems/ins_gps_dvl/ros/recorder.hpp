@@ -9,7 +9,6 @@
 #include "ros/settings.hpp"
 #include "sas_motion/systems/ins_gps_dvl/session.hpp"
 #include "sas_motion/systems/ins_gps_dvl/simulator.hpp"
-#include "sas_motion/systems/sins_dvl/scenario.hpp"
 #include "systems/ins_gps_dvl/ros/conversions.hpp"
 
 namespace sas_motion {
@@ -20,15 +19,14 @@ namespace sas_motion {
 class InsRecorder {
  public:
   InsRecorder(const ins::Scenario& scenario, std::uint64_t seed, ros_side::BagOutput& bag);
-  InsRecorder(const sins::Scenario& scenario, std::uint64_t seed, ros_side::BagOutput& bag);
+  using Simulate = std::function<ins::Recording(const ins::Trajectory&)>;
+  /// Of a system with the same sensors that simulates them in its own way.
+  InsRecorder(const ins::Scenario& scenario, const Simulate& simulate, bool with_gps, ros_side::BagOutput& bag);
 
   /// The whole scenario; `progress` is told of seconds as they pass.
   void record(const std::function<void(double)>& progress);
 
  private:
-  using Simulate = std::function<ins::Recording(const ins::Trajectory&)>;
-  InsRecorder(const ins::Scenario& scenario, const Simulate& simulate, bool with_gps, ros_side::BagOutput& bag);
-
   void transforms();
   void start();
   void truth(double seconds);

@@ -9,7 +9,7 @@
 #include "bag/reprocess.hpp"
 #include "bag/odometry_in.hpp"
 #include "sas_motion/systems/sins_dvl/estimator.hpp"
-#include "systems/ins_gps_dvl/ros/recorder.hpp"
+#include "systems/sins_dvl/ros/recorder.hpp"
 #include "systems/registry.hpp"
 
 namespace sas_motion::ros_side {
@@ -55,7 +55,7 @@ TEST(SinsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
       << "{system: sins_dvl, output_rate: 100, lag: 2, datum: [60, 120, 0], particles: {number: 100}}";
   const sins::Scenario scenario = scenarioWithLevers();
   BagOutput bag(file);
-  InsRecorder(scenario, 7, bag).record([](double) {});
+  SinsRecorder(scenario, 7, bag).record([](double) {});
   bag.commit();
   const std::vector<std::string> names{"ss_srupf", "ss_srukf"};
   reprocess(file, folder + "/out", names, *openSystem(config), [](double) {});
