@@ -59,9 +59,11 @@ bool BatchSolver::onSolve(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
     publisher_.publishSettled(kBurst, system_.map);
     ros::WallDuration(kBetweenBursts).sleep();
   }
+  const std::string failure = run_->session().report(0).failure;
   response.success = states > 0;
-  response.message = states > 0 ? fmt::format("{} states in {:.2f} s", states, seconds)
-                                : "nothing solved: " + run_->session().report(0).failure;
+  response.message = states > 0        ? fmt::format("{} states in {:.2f} s", states, seconds)
+                     : failure.empty() ? "nothing solved: nothing new since the last solution"
+                                       : "nothing solved: " + failure;
   return true;
 }
 
