@@ -9,12 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "bag/bag_reader.hpp"
-#include "bag/topics.hpp"
-#include <nav_msgs/Odometry.h>
-
-#include "ros/messages.hpp"
-#include "sas_motion/estimate/solution.hpp"
+#include "bag/answer_topics.hpp"
+#include "ros/solution_messages.hpp"
 
 namespace sas_motion {
 
@@ -23,27 +19,19 @@ using imaging::TimedPose;
 
 namespace {
 
-const std::string kTruth = "truth/odometry", kLeaf = "/odometry";
+const std::string kTruth = "truth/odometry";
 
-std::optional<TimedPose> poseOf(const nav_msgs::Odometry& odometry) {
-  const auto& p = odometry.pose.pose.position;
-  const auto& q = odometry.pose.pose.orientation;
-  TimedPose pose{stampOf(odometry.header.stamp), {p.x, p.y, p.z}, {q.w, q.x, q.y, q.z}};
+std::optional<TimedPose> poseOf(const Solution& solution) {
+  TimedPose pose{solution.stamp, solution.position_map, solution.q_map_base};
   if (!pose.position.allFinite() || !(pose.q_local_body.norm() > 0.5)) return std::nullopt;
   pose.q_local_body.normalize();
   return pose;
 }
 
-/// The bare names of all odometry topics, in order.
-std::set<std::string> odometryTopics(const BagReader& bag) {
-  std::set<std::string> topics;
-  for (const auto& connection : bag.connections())
-    if (connection.type == "nav_msgs/Odometry") topics.insert(bareTopic(connection.topic));
-  return topics;
-}
-
-bool isNamed(const std::string& topic) {
-  return topic.size() > kLeaf.size() && topic.compare(topic.size() - kLeaf.size(), kLeaf.size(), kLeaf) == 0;
+/// The NAME of NAME/odometry or NAME/settled; empty for another topic.
+std::string nameOf(const std::string& topic) {
+  const std::string name = nameBefore("odometry", topic);
+  return name.empty() ? nameBefore("settled", topic) : name;
 }
 
 /// Truth first.
@@ -52,12 +40,12 @@ std::vector<std::string> chosenTopics(const std::string& file, const std::set<st
   if (!there.count(kTruth))
     throw std::runtime_error(
         fmt::format("{}: no topic {}; an image needs the true track to be simulated on", file, kTruth));
-  std::vector<std::string> topics{kTruth};
+  std::vector<std::string> topics{kTruth}, names = wanted;
   if (wanted.empty())
-    std::copy_if(there.begin(), there.end(), std::back_inserter(topics),
-                 [](const auto& topic) { return isNamed(topic) && topic != kTruth; });
-  for (const auto& name : wanted) {
-    const std::string bare = bareTopic(name), topic = there.count(bare) ? bare : bare + kLeaf;
+    for (const auto& topic : there)
+      if (const std::string name = nameOf(topic); !name.empty()) names.push_back(name);
+  for (const auto& name : names) {
+    const std::string bare = bareTopic(name), topic = there.count(bare) ? bare : solutionTopic(there, bare);
     if (!there.count(topic))
       throw std::runtime_error(fmt::format("{}: no trajectory {}; there are {}", file, name, fmt::join(there, ", ")));
     if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
@@ -67,7 +55,7 @@ std::vector<std::string> chosenTopics(const std::string& file, const std::set<st
 
 /// What the images of a topic are called.
 std::string fileName(const std::string& topic) {
-  std::string name = isNamed(topic) ? topic.substr(0, topic.size() - kLeaf.size()) : topic;
+  std::string name = nameOf(topic).empty() ? topic : nameOf(topic);
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
 }
@@ -107,23 +95,24 @@ struct Origins {
 
 std::vector<RecordedTrajectory> readTrajectories(const std::string& file, const std::vector<std::string>& wanted) {
   BagReader bag(file);
-  auto trajectories = named(file, chosenTopics(file, odometryTopics(bag), wanted));
+  TopicReader reader(bag);
+  auto trajectories = named(file, chosenTopics(file, topicsOf(bag, "nav_msgs/Odometry"), wanted));
   std::map<std::string, std::vector<TimedPose>> poses;
-  for (const auto& trajectory : trajectories) poses[trajectory.topic];
   Origins origins;
-  nav_msgs::Odometry odometry;
-  sensor_msgs::NavSatFix fix;
-  while (const BagMessage* message = bag.next()) {
-    const std::string topic = bareTopic(message->connection->topic);
-    if (const auto found = poses.find(topic); found != poses.end() && bag.get(*message, odometry)) {
-      if (const auto pose = poseOf(odometry)) found->second.push_back(*pose);
-      if (topic == kTruth) origins.heights = odometry.pose.covariance[14] < kNotEstimated;
-    } else if (topic == "datum" && !origins.datum && bag.get(*message, fix)) {
-      origins.datum.emplace(geodeticOf(fix));
-    } else if (topic == "truth/fix" && origins.fixes.size() < 100 && bag.get(*message, fix) && hasPosition(fix)) {
-      origins.fixes[stampOf(fix.header.stamp)] = geodeticOf(fix);
-    }
-  }
+  for (const auto& trajectory : trajectories)
+    reader.on<nav_msgs::Odometry>(trajectory.topic,
+                                  [&, topic = trajectory.topic, &into = poses[trajectory.topic]](const auto& odometry) {
+                                    const Solution solution = solutionOf(odometry);
+                                    if (const auto pose = poseOf(solution)) into.push_back(*pose);
+                                    if (topic == kTruth) origins.heights = solution.has_height();
+                                  });
+  reader.on<sensor_msgs::NavSatFix>("datum", [&](const auto& fix) {
+    if (!origins.datum) origins.datum.emplace(geodeticOf(fix));
+  });
+  reader.on<sensor_msgs::NavSatFix>("truth/fix", [&](const auto& fix) {
+    if (origins.fixes.size() < 100 && hasPosition(fix)) origins.fixes[stampOf(fix.header.stamp)] = geodeticOf(fix);
+  });
+  reader.read();
   auto& truth = poses[kTruth];
   const Eigen::Vector3d shift = origins.shiftOf(truth);
   for (auto& pose : truth) pose.position += shift;

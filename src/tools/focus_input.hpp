@@ -16,10 +16,10 @@ struct RecordedTrajectory {
 };
 
 /// Reads truth, which comes first, and the estimates of a bag from topics of type nav_msgs/Odometry: those named
-/// NAME/odometry, or only `wanted` ones, each a topic or a NAME. Poses without a finite position or without an
-/// orientation are left out. Truth stands in the frame of the estimates, whose origin is the topic datum, where the bag
-/// has this and truth/fix; else both share their frame. Throws std::runtime_error: one sentence that names the bag and
-/// the topic.
+/// NAME/settled where the bag has it, else NAME/odometry; or only `wanted` ones, each a topic or a NAME. Poses without
+/// a finite position or without an orientation are left out. Truth stands in the frame of the estimates, whose origin
+/// is the topic datum, where the bag has this and truth/fix; else both share their frame. Throws std::runtime_error:
+/// one sentence that names the bag and the topic.
 std::vector<RecordedTrajectory> readTrajectories(const std::string& bag, const std::vector<std::string>& wanted);
 
 }  // namespace sas_motion

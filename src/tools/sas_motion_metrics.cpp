@@ -14,6 +14,9 @@
 
 #include "bag/recording.hpp"
 #include "bag/tum.hpp"
+#include "evaluation/outages.hpp"
+#include "evaluation/solution_errors.hpp"
+#include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/statistics.hpp"
 #include "sas_motion/systems/towfish/solution.hpp"
 #include "tools/main_guard.hpp"
@@ -22,7 +25,6 @@ namespace {
 
 using namespace sas_motion;
 using namespace sas_motion::ros_side;
-using namespace sas_motion::towfish;
 using nlohmann::json;
 
 constexpr std::size_t kMostPoints = 6000;  // of one plotted series
@@ -54,170 +56,156 @@ json toJson(const Detection& d) {
           {"recall", orNull(d.recall())}};
 }
 
-/// Stretches without fixes, and the position error of the last estimate before the fixes came back.
-std::vector<Outage> outages(const Recording& recording, const RecordedEstimator& estimator) {
-  std::vector<Outage> found;
-  for (std::size_t i = 1; i < recording.fixes.size(); ++i) {
-    const Stamp from = recording.fixes[i - 1].stamp, to = recording.fixes[i].stamp;
-    if (secondsBetween(from, to) < kShortestOutage) continue;
-    Outage outage{secondsBetween(recording.begin, from), secondsBetween(from, to), 0, -1};
-    std::optional<Vector<2>> last;
-    for (const auto& truth : recording.truth) {
-      if (truth.stamp < from || truth.stamp >= to) continue;
-      if (last) outage.distance += (truth.reference.state.head<2>() - *last).norm();
-      last = truth.reference.state.head<2>();
-    }
-    for (const auto& estimate : estimator.estimates)
-      if (estimate.stamp > from && estimate.stamp < to)
-        if (const auto truth = recording.truthAt(estimate.stamp))
-          outage.error_end = (estimate.belief.mean - truth->state).head<2>().norm();
-    if (outage.error_end >= 0 && outage.distance > 0) found.push_back(outage);
+/// Groups of states as `groups` has them, angles in degrees and named so.
+template <class Value>
+void addErrors(const Named<Value>& groups, json& m) {
+  for (const auto& [group, error] : groups) {
+    const bool angle = group == "heading" || group == "tilt";
+    m[angle ? group + "_deg" : group] = toJson(error, angle ? kRadPerDeg : 1);
   }
-  return found;
 }
 
-/// One estimator scored: its metrics, and its scored trajectory beside truth in TUM files.
-class Judge {
- public:
-  Judge(const Recording& recording, const Options& options)
-      : recording_(recording), options_(options), begins_off_(beginsOff()) {}
+/// How far the heading of an estimate is off [deg], where that is known.
+std::optional<double> headingOff(const Recording& recording, const Solution& estimate) {
+  const auto truth = recording.truth.at(estimate.stamp);
+  const auto error = truth ? headingError(estimate, *truth) : std::nullopt;
+  return error ? std::optional(std::abs(*error) / kRadPerDeg) : std::nullopt;
+}
 
-  json metrics(const std::string& name, const RecordedEstimator& estimator, const json& cost) const {
-    Scorer scorer(options_.aperture);
-    MotionScorer motions;
-    TumFile tum(options_.out + "/" + name + ".tum"), truth_tum(options_.out + "/" + name + ".truth.tum");
-    const Stamp from = recording_.begin + stampFromSeconds(options_.skip);
-    for (const auto& estimate : estimator.estimates) {
-      auto truth = recording_.truthAt(estimate.stamp);
-      if (estimate.stamp < from || !truth) continue;
-      truth->heading_known &= estimate.belief.covariance(kHeading, kHeading) < kNotEstimated;
-      truth->speed_known &= estimate.belief.covariance(kSpeed, kSpeed) < kNotEstimated;
-      scorer.add(estimate, *truth);
-      tum.write(solutionOf(estimate, nullptr));
-      truth_tum.write(solutionOf({estimate.stamp, {truth->state, StateMatrix::Identity()}}, nullptr));
-    }
-    for (const auto& motion : estimator.motions)
-      if (const auto truth = recording_.motionAt(motion.stamp); truth && motion.stamp >= from)
-        motions.add(motion, *truth);
-    tum.commit();
-    truth_tum.commit();
-    json m = describe(scorer.scores(), outages(recording_, estimator), cost);
-    addMotions(motions.scores(), m);
-    addAudits(estimator, from, m);
-    if (const json alignment = begins_off_ ? alignmentOf(estimator) : json(); !alignment.is_null())
-      m["alignment"] = alignment;
-    return m;
+/// Whether any estimator begins with a wrong heading: only then is it of interest when it is aligned.
+bool beginsOff(const Recording& recording) {
+  const auto off = [&](const auto& named) {
+    const auto& solutions = named.second.solutions;
+    return !solutions.empty() && headingOff(recording, solutions.front()).value_or(0) > kAligned;
+  };
+  return std::any_of(recording.estimators.begin(), recording.estimators.end(), off);
+}
+
+/// When the heading, skipped or not, came within kAligned for good: 0 where it always was, null where it did not.
+json alignmentOf(const Recording& recording, const RecordedEstimator& estimator) {
+  double last_off = 0;
+  std::optional<double> last;
+  for (const auto& estimate : estimator.solutions) {
+    const auto off = headingOff(recording, estimate);
+    if (!off) continue;
+    last = secondsBetween(recording.begin(), estimate.stamp);
+    if (*off > kAligned) last_off = *last;
   }
+  if (!last) return nullptr;
+  return {{"within_deg", kAligned},
+          {"after", last_off == 0 || *last - last_off >= kAlignedFor ? json(last_off) : json(nullptr)}};
+}
 
- private:
-  json describe(const Scores& s, const std::vector<Outage>& gaps, const json& cost) const {
-    json m{{"samples", s.samples},           {"diverged", s.diverged},
-           {"drift_percent", 100 * s.drift}, {"nees", json::object()},
-           {"nis", json::object()},          {"outliers", json::object()},
-           {"outages", json::array()},       {"cost", cost}};
-    for (int i = 0; i < kGroups; ++i) {
-      const auto group = static_cast<Group>(i);
-      const bool angle = group == kHeadingGroup;
-      if (s.error[group]) m[angle ? "heading_deg" : groupName(group)] = toJson(*s.error[group], angle ? kRadPerDeg : 1);
-      if (s.nees[group]) m["nees"][groupName(group)] = toJson(*s.nees[group]);
-    }
-    ApertureError a = s.aperture;
-    if (a.windows == 0) a.across = a.along = std::nan("");  // too few estimates for one
-    m["aperture"] = {{"time", a.time},       {"wavelength", a.wavelength},
-                     {"windows", a.windows}, {"across", a.across},
-                     {"along", a.along},     {"across_wavelengths", a.across / a.wavelength}};
-    for (const auto& gap : gaps)
-      m["outages"].push_back({{"begin", gap.begin},
-                              {"duration", gap.duration},
-                              {"distance", gap.distance},
-                              {"error_end", gap.error_end},
-                              {"drift_percent", 100 * gap.error_end / gap.distance}});
-    return m;
+/// What the estimator adds to the stamps of a sensor's readings, found from its audits.
+Stamp offsetOf(const RecordedEstimator& estimator, std::string_view sensor, const std::vector<Stamp>& readings) {
+  std::vector<Stamp> audits;
+  for (const auto& audit : estimator.audits)
+    if (audit.sensor == sensor && audit.verdict != Verdict::Stale && audit.verdict != Verdict::Invalid)
+      audits.push_back(audit.stamp);
+  std::sort(audits.begin(), audits.end());
+  return timeOffset(readings, audits);
+}
+
+json outagesOf(const Recording& recording, const RecordedEstimator& estimator) {
+  std::vector<Stamp> fixes;
+  for (const auto& fix : recording.fixes) fixes.push_back(fix.stamp);
+  Stamp offset = 0;
+  for (const char* sensor : {"position", "gps"})
+    if (offset == 0) offset = offsetOf(estimator, sensor, fixes);
+  for (Stamp& fix : fixes) fix += offset;
+  json all = json::array();
+  for (const auto& gap : outages(fixes, recording.truth, estimator.solutions))
+    all.push_back({{"begin", gap.begin},
+                   {"duration", gap.duration},
+                   {"distance", gap.distance},
+                   {"error_end", gap.error_end},
+                   {"drift_percent", 100 * gap.error_end / gap.distance}});
+  return all;
+}
+
+json apertureOf(ApertureError a) {
+  if (a.windows == 0) a.across = a.along = std::nan("");  // too few estimates for one
+  return {{"time", a.time},     {"wavelength", a.wavelength}, {"windows", a.windows},
+          {"across", a.across}, {"along", a.along},           {"across_wavelengths", a.across / a.wavelength}};
+}
+
+/// Scores the solutions, and writes the scored trajectory beside truth into TUM files.
+void scoreSolutions(const Recording& recording, const Options& options, const std::string& name,
+                    EstimatorScorer& scorer) {
+  TumFile tum(options.out + "/" + name + ".tum"), truth_tum(options.out + "/" + name + ".truth.tum");
+  const Stamp from = recording.begin() + stampFromSeconds(options.skip);
+  std::optional<Vector<3>> last;
+  for (const auto& estimate : recording.estimators.at(name).solutions) {
+    const auto truth = recording.truth.at(estimate.stamp);
+    if (estimate.stamp < from || !truth) continue;
+    score(estimate, *truth, scorer);
+    if (last) scorer.addDistance((truth->solution.position_map - *last).head<2>().norm());
+    last = truth->solution.position_map;
+    tum.write(estimate);
+    truth_tum.write(truth->solution);
   }
+  tum.commit();
+  truth_tum.commit();
+}
 
-  static void addMotions(const MotionScores& scores, json& m) {
-    for (std::size_t i = 0; i < kMotionGroups; ++i) {
-      const std::string name = kMotionGroupNames[i];
-      const bool angle = i == kTiltGroup;
-      if (scores.error[i]) m[angle ? name + "_deg" : name] = toJson(*scores.error[i], angle ? kRadPerDeg : 1);
-      if (scores.nees[i]) m["nees"][name] = toJson(*scores.nees[i]);
-    }
+/// Scores what became of each sensor's measurements.
+void scoreAudits(const Recording& recording, const Options& options, const RecordedEstimator& estimator,
+                 EstimatorScorer& scorer) {
+  std::map<std::string, Stamp, std::less<>> offsets;
+  for (const auto& [sensor, labels] : recording.outliers) {
+    std::vector<Stamp> readings;
+    for (const auto& [stamp, outlier] : labels) readings.push_back(stamp);
+    offsets[sensor] = offsetOf(estimator, sensor, readings);
   }
-
-  /// How far the heading of an estimate is off [deg], where that is known.
-  std::optional<double> headingOff(const Estimate& estimate) const {
-    const auto truth = recording_.truthAt(estimate.stamp);
-    if (!truth || !truth->heading_known || !(estimate.belief.covariance(kHeading, kHeading) < kNotEstimated))
-      return std::nullopt;
-    return std::abs(Model::difference(estimate.belief.mean, truth->state)(kHeading)) / kRadPerDeg;
+  const Stamp from = recording.begin() + stampFromSeconds(options.skip);
+  for (const auto& audit : estimator.audits) {
+    if (audit.stamp < from) continue;
+    const auto offset = offsets.find(audit.sensor);
+    scorer.addAudit(secondsBetween(recording.begin(), audit.stamp), audit,
+                    recording.outlier(audit.sensor, audit.stamp - (offset == offsets.end() ? 0 : offset->second)));
+    if (audit.effective_size > 0) scorer.trace().effective_size.push_back(audit.effective_size);
   }
+}
 
-  /// Whether any estimator begins with a heading to be found: else nobody asks when it is aligned.
-  bool beginsOff() const {
-    const auto off = [&](const auto& named) {
-      const auto& estimates = named.second.estimates;
-      return !estimates.empty() && headingOff(estimates.front()).value_or(0) > kAligned;
-    };
-    return std::any_of(recording_.estimators.begin(), recording_.estimators.end(), off);
+/// One estimator's metrics.
+json metricsOf(const Recording& recording, const Options& options, const std::string& name, const json& cost) {
+  const RecordedEstimator& estimator = recording.estimators.at(name);
+  ScorerOptions scoring;
+  scoring.aperture = options.aperture;
+  EstimatorScorer scorer(name, scoring);
+  scoreSolutions(recording, options, name, scorer);
+  scoreAudits(recording, options, estimator, scorer);
+  const EstimatorReport report = scorer.report();
+  const auto& verdicts = scorer.verdicts();
+  json m{{"samples", report.samples},
+         {"diverged", report.diverged},
+         {"drift_percent", 100 * scorer.drift()},
+         {"nees", json::object()},
+         {"nis", json::object()},
+         {"outliers", json::object()},
+         {"outages", outagesOf(recording, estimator)},
+         {"aperture", apertureOf(scorer.aperture())},
+         {"cost", cost},
+         {"verdicts",
+          {{"accepted", verdicts[0]},
+           {"down_weighted", verdicts[1]},
+           {"rejected", verdicts[2]},
+           {"stale", verdicts[3]},
+           {"invalid", verdicts[4]}}}};
+  addErrors(report.errors, m);
+  for (const auto& [group, nees] : scorer.nees()) m["nees"][group] = toJson(nees);
+  const auto& solutions = estimator.solutions;  // one without covariance has no NIS that says anything
+  if (std::any_of(solutions.begin(), solutions.end(), [](const Solution& s) { return s.has_covariance(); }))
+    for (const auto& [sensor, nis] : scorer.nis()) m["nis"][sensor] = toJson(nis);
+  if (!recording.outliers.empty()) {
+    for (const auto& [sensor, detection] : scorer.detections()) m["outliers"][sensor] = toJson(detection);
+    m["outliers"]["all"] = toJson(scorer.detection());
   }
-
-  /// When the heading, skipped or not, came within kAligned for good: 0 where it always was, null where it did not.
-  json alignmentOf(const RecordedEstimator& estimator) const {
-    double last_off = 0;
-    std::optional<double> last;
-    for (const auto& estimate : estimator.estimates) {
-      const auto off = headingOff(estimate);
-      if (!off) continue;
-      last = secondsBetween(recording_.begin, estimate.stamp);
-      if (*off > kAligned) last_off = *last;
-    }
-    if (!last) return nullptr;
-    return {{"within_deg", kAligned},
-            {"after", last_off == 0 || *last - last_off >= kAlignedFor ? json(last_off) : json(nullptr)}};
-  }
-
-  /// What became of each sensor's measurements.
-  void addAudits(const RecordedEstimator& estimator, Stamp from, json& m) const {
-    std::map<std::string, AuditTally> tallies;
-    std::map<std::string, double> degrees;
-    std::array<std::size_t, 5> verdicts{};
-    std::vector<double> effective_sizes;
-    for (const auto& audit : estimator.audits) {
-      if (audit.stamp < from) continue;
-      if (audit.effective_size > 0) effective_sizes.push_back(audit.effective_size);
-      ++verdicts[static_cast<std::size_t>(audit.verdict)];
-      if (audit.rows == 0) continue;
-      const auto label = recording_.outlier.find({audit.stamp, audit.sensor});
-      tallies[audit.sensor].add(audit.verdict, audit.least_weight, audit.nis,
-                                label == recording_.outlier.end() ? std::nullopt : std::optional<bool>(label->second));
-      degrees[audit.sensor] = static_cast<double>(audit.rows);
-    }
-    const auto& motions = estimator.motions;  // a solution without covariance has no NIS to speak of
-    const bool consistent =
-        motions.empty() || std::any_of(motions.begin(), motions.end(),
-                                       [](const MotionSample& motion) { return motion.P_position_map.has_value(); });
-    Detection all;
-    for (const auto& [name, tally] : tallies) {
-      if (!tally.nis.empty() && consistent) m["nis"][name] = toJson(consistency(tally.nis, degrees[name]));
-      if (!recording_.labelled()) continue;
-      m["outliers"][name] = toJson(tally.detection);
-      all.labelled += tally.detection.labelled;
-      all.flagged += tally.detection.flagged;
-      all.hits += tally.detection.hits;
-    }
-    if (recording_.labelled()) m["outliers"]["all"] = toJson(all);
-    if (!effective_sizes.empty()) m["effective_particles"] = quantile(effective_sizes, 0.5);
-    m["verdicts"] = {{"accepted", verdicts[0]},
-                     {"down_weighted", verdicts[1]},
-                     {"rejected", verdicts[2]},
-                     {"stale", verdicts[3]},
-                     {"invalid", verdicts[4]}};
-  }
-
-  const Recording& recording_;
-  const Options& options_;
-  bool begins_off_;
-};
+  if (report.effective_size) m["effective_particles"] = *report.effective_size;
+  if (beginsOff(recording))
+    if (const json alignment = alignmentOf(recording, estimator); !alignment.is_null()) m["alignment"] = alignment;
+  return m;
+}
 
 /// Named columns that grow by rows and are thinned to what a plot can show.
 class Series {
@@ -241,63 +229,53 @@ class Series {
   json columns_;
 };
 
-/// Beside the other states, sample by sample, where there are heights.
-void addHeights(const Recording& recording, const RecordedEstimator& estimator, json& all) {
-  if (estimator.motions.size() != estimator.estimates.size()) return;
-  Series heights({"error_up", "sigma_up"}, estimator.motions.size());
-  for (const auto& motion : estimator.motions) {
-    const auto truth = recording.motionAt(motion.stamp);
-    if (!truth) continue;
-    const double variance = motion.P_position_map ? (*motion.P_position_map)(2, 2) : 0;
-    heights.add({motion.position_map.z() - truth->position_map.z(), std::sqrt(variance)});
-  }
-  all.update(heights.columns());
-}
-
 json seriesOf(const Recording& recording, const RecordedEstimator& estimator) {
   Series states({"t", "north", "east", "error_north", "sigma_north", "error_east", "sigma_east", "error_heading_deg",
                  "sigma_heading_deg"},
-                estimator.estimates.size());
-  for (const auto& estimate : estimator.estimates) {
-    const auto truth = recording.truthAt(estimate.stamp);
+                estimator.solutions.size());
+  Series heights({"error_up", "sigma_up"}, estimator.solutions.size());
+  for (const auto& estimate : estimator.solutions) {
+    const auto truth = recording.truth.at(estimate.stamp);
     if (!truth) continue;
-    const StateVector error = Model::difference(estimate.belief.mean, truth->state);
-    const auto& P = estimate.belief.covariance;
-    states.add({secondsBetween(recording.begin, estimate.stamp), estimate.belief.mean(kNorth),
-                estimate.belief.mean(kEast), error(kNorth), std::sqrt(P(kNorth, kNorth)), error(kEast),
-                std::sqrt(P(kEast, kEast)), truth->heading_known ? error(kHeading) / kRadPerDeg : 0,
-                std::sqrt(P(kHeading, kHeading)) / kRadPerDeg});
+    const Vector<3>& position = estimate.position_map;
+    const Vector<3> error = position - truth->solution.position_map;
+    const Vector<6> sigma = estimate.pose_covariance.diagonal().cwiseSqrt();
+    states.add({secondsBetween(recording.begin(), estimate.stamp), position.y(), position.x(), error.y(), sigma(1),
+                error.x(), sigma(0), headingError(estimate, *truth).value_or(0) / kRadPerDeg, sigma(5) / kRadPerDeg});
+    if (truth->solution.has_height()) heights.add({error.z(), sigma(2)});
   }
   json all = states.columns();
-  addHeights(recording, estimator, all);
-  std::map<std::string, Series> updates;
+  const auto& solutions = estimator.solutions;
+  if (std::all_of(solutions.begin(), solutions.end(), [](const Solution& s) { return s.has_height(); }))
+    all.update(heights.columns());
+  std::map<std::string_view, Series> updates;
   for (const auto& audit : estimator.audits) {
     if (audit.rows == 0) continue;
+    const double least_weight = audit.weights.head(audit.rows).minCoeff();
     auto& series =
         updates
             .try_emplace(audit.sensor, std::initializer_list<const char*>{"t", "weight", "nis", "effective_size"},
                          estimator.audits.size() / 3)
             .first->second;
-    series.add(
-        {secondsBetween(recording.begin, audit.stamp), audit.least_weight, audit.nis.value_or(0), audit.effective_size},
-        audit.least_weight < kDownWeighted);
+    series.add({secondsBetween(recording.begin(), audit.stamp), least_weight, audit.nis, audit.effective_size},
+               least_weight < kDownWeighted);
   }
-  for (const auto& [sensor, series] : updates) all["updates"][sensor] = series.columns();
+  for (const auto& [sensor, series] : updates) all["updates"][std::string(sensor)] = series.columns();
   return all;
 }
 
 json seriesOf(const Recording& recording) {
-  Series truth({"t", "north", "east"}, recording.truth.size());
-  for (const auto& t : recording.truth)
-    truth.add({secondsBetween(recording.begin, t.stamp), t.reference.state(kNorth), t.reference.state(kEast)});
+  Series truth({"t", "north", "east"}, recording.truth.points().size());
+  for (const auto& point : recording.truth.points())
+    truth.add({secondsBetween(recording.begin(), point.stamp), point.position_map.y(), point.position_map.x()});
   json fixes{{"t", json::array()}, {"north", json::array()}, {"east", json::array()}, {"outlier", json::array()}};
   for (const auto& fix : recording.fixes) {
-    auto label = recording.outlier.find({fix.stamp, "position"});
-    if (label == recording.outlier.end()) label = recording.outlier.find({fix.stamp, "gps"});
-    fixes["t"].push_back(rounded(secondsBetween(recording.begin, fix.stamp)));
-    fixes["north"].push_back(rounded(fix.position(0)));
-    fixes["east"].push_back(rounded(fix.position(1)));
-    fixes["outlier"].push_back(label == recording.outlier.end() ? json(nullptr) : json(label->second ? 1 : 0));
+    auto label = recording.outlier("position", fix.stamp);
+    if (!label) label = recording.outlier("gps", fix.stamp);
+    fixes["t"].push_back(rounded(secondsBetween(recording.begin(), fix.stamp)));
+    fixes["north"].push_back(rounded(fix.position_map.y()));
+    fixes["east"].push_back(rounded(fix.position_map.x()));
+    fixes["outlier"].push_back(label ? json(*label ? 1 : 0) : json(nullptr));
   }
   json all{{"truth", truth.columns()}, {"fixes", fixes}};
   for (const auto& [name, estimator] : recording.estimators) all["estimators"][name] = seriesOf(recording, estimator);
@@ -321,18 +299,18 @@ json costOf(const std::string& bag, const std::string& name) {
 void run(const Options& options) {
   const Recording recording = Recording::read(options.bag);
   makeFolder(options.out);
-  const Judge judge(recording, options);
   double distance = 0;
-  for (std::size_t i = 1; i < recording.truth.size(); ++i)
-    distance += (recording.truth[i].reference.state - recording.truth[i - 1].reference.state).head<2>().norm();
+  const auto& truth = recording.truth.points();
+  for (std::size_t i = 1; i < truth.size(); ++i)
+    distance += (truth[i].position_map - truth[i - 1].position_map).head<2>().norm();
   json metrics{{"schema", "sas_motion/metrics/1"},
                {"bag", std::filesystem::path(options.bag).filename().string()},
                {"truth", recording.truth_topic},
-               {"duration", secondsBetween(recording.begin, recording.end)},
+               {"duration", secondsBetween(recording.begin(), recording.end())},
                {"distance", distance},
                {"skipped", options.skip}};
   for (const auto& [name, estimator] : recording.estimators)
-    metrics["estimators"][name] = judge.metrics(name, estimator, costOf(options.bag, name));
+    metrics["estimators"][name] = metricsOf(recording, options, name, costOf(options.bag, name));
   writeFile(options.out + "/series.json", seriesOf(recording).dump());
   writeFile(options.out + "/metrics.json", metrics.dump(2) + "\n");
 }

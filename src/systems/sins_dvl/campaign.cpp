@@ -41,9 +41,11 @@ class SinsCampaign final : public Campaign {
 
  private:
   Config configOf(const Scenario& scenario, std::uint64_t seed) const {
-    Mechanisation::Options imu;
-    imu.period = 1 / scenario.imu_rate;
-    Config config{scenario.parameters, imu, particles_, accelerometer_bias_};
+    Config config;
+    config.parameters = scenario.parameters;
+    config.imu.period = 1 / scenario.imu_rate;
+    config.particles = particles_;
+    config.accelerometer_bias = accelerometer_bias_;
     config.particles.seed = seed;
     return config;
   }
