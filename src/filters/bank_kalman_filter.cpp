@@ -12,6 +12,7 @@
 #include "filters/bank_judgement.hpp"
 #include "filters/bank_moments.hpp"
 #include "filters/instantiate.hpp"
+#include "sas_motion/config/yaml_vector.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {
@@ -25,6 +26,19 @@ void require(bool holds, const char* key, double value, const char* must) {
 }
 
 }  // namespace
+
+void readOptions(YamlSection yaml, BankKalmanOptions& options) {
+  yaml.number("epoch", options.epoch, {1e-3, 3600});
+  yaml.number("jump_probability", options.jump_probability, {1e-6, 0.199});
+  yaml.number("jump_scale", options.jump_scale, {1, 1e6});
+  readArray(yaml, "scales", options.scales, kTiny);
+  readArray(yaml, "probabilities", options.probabilities, kTiny);
+  yaml.number("sticky", options.sticky, {0, 0.99});
+  yaml.number("repeat", options.repeat, {0, 1});
+  yaml.number("burst", options.burst, {0, 1e6});
+  yaml.number("patience", options.patience, {kTiny, 1e6});
+  yaml.finish();
+}
 
 template <int N>
 BankKalmanFilter<N>::BankKalmanFilter(const Options& options) : options_(options) {

@@ -6,8 +6,7 @@
 
 #include "filters/instantiate.hpp"
 #include "sas_motion/filters/conditioning.hpp"
-#include "sas_motion/filters/robust_kalman_filter.hpp"
-#include "sas_motion/filters/student_t_kalman_filter.hpp"
+#include "sas_motion/filters/filter_by_name.hpp"
 
 namespace sas_motion {
 namespace {
@@ -107,7 +106,6 @@ Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief&
   SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, 6, 1) \
   SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, 6, 2) \
   SAS_MOTION_INSTANTIATE_CALIBRATED_UPDATE(Filter, 6, 4)
-SAS_MOTION_INSTANTIATE_CALIBRATED(RobustKalmanFilter)
-SAS_MOTION_INSTANTIATE_CALIBRATED(StudentTKalmanFilter)
+SAS_MOTION_FOR_CALIBRATED_FILTERS(SAS_MOTION_INSTANTIATE_CALIBRATED)
 
 }  // namespace sas_motion

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "filters/instantiate.hpp"
+#include "sas_motion/config/yaml_section.hpp"
 
 namespace sas_motion {
 namespace {
@@ -18,6 +19,11 @@ double checkedProbability(double probability) {
 }
 
 }  // namespace
+
+void readOptions(YamlSection yaml, GatedKalmanOptions& options) {
+  yaml.number("probability", options.probability, {0.5, 0.999999});
+  yaml.finish();
+}
 
 template <int N>
 GatedKalmanFilter<N>::GatedKalmanFilter(const Options& options) : gate_(checkedProbability(options.probability)) {}
@@ -35,5 +41,6 @@ Update<Gaussian<N>, M> GatedKalmanFilter<N>::update(const Belief& prior, const L
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(GatedKalmanFilter)
+SAS_MOTION_INSTANTIATE_LARGE_UPDATES(GatedKalmanFilter)
 
 }  // namespace sas_motion

@@ -10,11 +10,11 @@
   template Update<Filter<N>::Belief, M> Filter<N>::update<M>(const Filter<N>::Belief&, const LinearMeasurement<N, M>&) \
       const;
 
-// The fusion of INS, GPS and DVL, for the filters that it uses.
-#define SAS_MOTION_INSTANTIATE_INS_UPDATES(Filter) \
-  template class Filter<27>;                       \
-  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 1)     \
-  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 2)     \
+// For the filters whose belief is one Gaussian.
+#define SAS_MOTION_INSTANTIATE_LARGE_UPDATES(Filter) \
+  template class Filter<27>;                         \
+  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 1)       \
+  SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 2)       \
   SAS_MOTION_INSTANTIATE_UPDATE(Filter, 27, 3)
 
 #define SAS_MOTION_INSTANTIATE_UPDATES(Filter) \

@@ -10,9 +10,18 @@
 #include <stdexcept>
 
 #include "filters/instantiate.hpp"
+#include "sas_motion/config/yaml_vector.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {
+
+void readOptions(YamlSection yaml, MixtureKalmanOptions& options) {
+  readArray(yaml, "scales", options.scales, kTiny);
+  readArray(yaml, "probabilities", options.probabilities, 0);
+  if (*std::max_element(options.probabilities.begin(), options.probabilities.end()) == 0)
+    yaml.fail("probabilities", "must not all be 0");
+  yaml.finish();
+}
 
 template <int N>
 MixtureKalmanFilter<N>::MixtureKalmanFilter(const Options& options) : options_(options) {
@@ -69,5 +78,6 @@ Update<Gaussian<N>, M> MixtureKalmanFilter<N>::update(const Belief& prior, const
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(MixtureKalmanFilter)
+SAS_MOTION_INSTANTIATE_LARGE_UPDATES(MixtureKalmanFilter)
 
 }  // namespace sas_motion

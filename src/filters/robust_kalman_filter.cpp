@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "filters/instantiate.hpp"
 #include "filters/whitening.hpp"
+#include "sas_motion/config/yaml_loss.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {
@@ -64,6 +66,31 @@ class Reweighting {
 };
 
 }  // namespace
+
+RobustKalmanOptions correntropyOptions(double bandwidth) {
+  RobustKalmanOptions options;
+  options.loss = Loss(LossKind::Welsch, bandwidth * std::sqrt(2.0));
+  options.robustify_process = true;
+  return options;
+}
+
+void readOptions(YamlSection yaml, RobustKalmanOptions& options) {
+  readLoss(yaml, options.loss);
+  yaml.integer("max_iterations", options.max_iterations, 1, 1000);
+  yaml.number("tolerance", options.tolerance, {kTiny, 1});
+  yaml.boolean("robustify_process", options.robustify_process);
+  yaml.boolean("calibrate", options.calibrate);
+  yaml.finish();
+}
+
+void readCorrentropyOptions(YamlSection yaml, RobustKalmanOptions& options) {
+  double bandwidth = options.loss.tuning() / std::sqrt(2.0);
+  yaml.number("bandwidth", bandwidth, {kTiny, 1e9});
+  yaml.integer("max_iterations", options.max_iterations, 1, 1000);
+  yaml.number("tolerance", options.tolerance, {kTiny, 1});
+  yaml.finish();
+  options.loss = correntropyOptions(bandwidth).loss;
+}
 
 template <int N>
 RobustKalmanFilter<N>::RobustKalmanFilter(const Options& options) : options_(options) {
@@ -157,6 +184,6 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateBothWeights(const Belief& pr
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(RobustKalmanFilter)
-SAS_MOTION_INSTANTIATE_INS_UPDATES(RobustKalmanFilter)
+SAS_MOTION_INSTANTIATE_LARGE_UPDATES(RobustKalmanFilter)
 
 }  // namespace sas_motion

@@ -8,9 +8,18 @@
 #include <stdexcept>
 
 #include "filters/instantiate.hpp"
+#include "sas_motion/config/yaml_section.hpp"
 #include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {
+
+void readOptions(YamlSection yaml, StudentTKalmanOptions& options) {
+  yaml.number("degrees_of_freedom", options.degrees_of_freedom, {kTiny, 1e9});
+  yaml.integer("max_iterations", options.max_iterations, 1, 1000);
+  yaml.number("tolerance", options.tolerance, {kTiny, 1});
+  yaml.boolean("calibrate", options.calibrate);
+  yaml.finish();
+}
 
 template <int N>
 StudentTKalmanFilter<N>::StudentTKalmanFilter(const Options& options) : options_(options) {
@@ -72,5 +81,6 @@ Influence StudentTKalmanFilter<N>::influence(double residual, double variance) c
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(StudentTKalmanFilter)
+SAS_MOTION_INSTANTIATE_LARGE_UPDATES(StudentTKalmanFilter)
 
 }  // namespace sas_motion

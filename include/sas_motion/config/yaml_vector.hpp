@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sas_motion/config/yaml_section.hpp"
@@ -22,6 +23,14 @@ void readVector(YamlSection& yaml, const std::string& key, Vector<N>& value,
   for (const double number : numbers)
     if (number < lower) yaml.fail(key, fmt::format("has {} but it must be at least {}", number, lower));
   std::copy(numbers.begin(), numbers.end(), value.data());
+}
+
+/// The same for an array. Throws ConfigError.
+template <std::size_t N>
+void readArray(YamlSection& yaml, const std::string& key, std::array<double, N>& value, double lower) {
+  Vector<int{N}> vector(value.data());
+  readVector<int{N}>(yaml, key, vector, lower);
+  std::copy_n(vector.data(), N, value.begin());
 }
 
 /// A number that the file has in another unit: value = number * unit. The range is the number's. Throws ConfigError.

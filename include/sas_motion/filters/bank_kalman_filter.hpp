@@ -9,6 +9,22 @@
 
 namespace sas_motion {
 
+class YamlSection;
+
+struct BankKalmanOptions {
+  double epoch = 1;                                                 ///< how long a jump takes to show [s]
+  double jump_probability = 0.02;                                   ///< an epoch, before anything is learned
+  double jump_scale = 100;                                          ///< process noise of a jump over Q [-]
+  std::array<double, 4> scales{1, 9, 100, 2500};                    ///< variance over R [-]; the last two are outliers
+  std::array<double, 4> probabilities{0.871, 0.079, 0.025, 0.025};  ///< of the scales, before anything is learned
+  double sticky = 0.4;                                              ///< probability that an outlier follows an outlier
+  double repeat = 0.4;                                              ///< and is wrong by as much
+  double burst = 11;                                                ///< that long at most [epochs]
+  double patience = 1.5;  ///< with agreeing readings of a row whose sisters share no doubt [epochs]
+};
+/// Reads all keys of a section. Throws ConfigError.
+void readOptions(YamlSection yaml, BankKalmanOptions& options);
+
 /// One way in which the last few epochs may have gone, as a Gaussian about the bank's mean, with what it thinks of each
 /// channel. A channel is one row of one sensor.
 template <int N>
@@ -75,18 +91,8 @@ template <int N>
 class BankKalmanFilter {
  public:
   using Belief = BankBelief<N>;
-
-  struct Options {
-    double epoch = 1;                               ///< how long a jump takes to show [s]
-    double jump_probability = 0.02;                 ///< an epoch, before anything is learned
-    double jump_scale = 100;                        ///< process noise of a jump over Q [-]
-    std::array<double, 4> scales{1, 9, 100, 2500};  ///< variance over R [-]; the last two are outliers
-    std::array<double, 4> probabilities{0.871, 0.079, 0.025, 0.025};  ///< of the scales, before anything is learned
-    double sticky = 0.4;    ///< probability that an outlier follows an outlier
-    double repeat = 0.4;    ///< and is wrong by as much
-    double burst = 11;      ///< that long at most [epochs]
-    double patience = 1.5;  ///< with agreeing readings of a row whose sisters share no doubt [epochs]
-  };
+  using Options = BankKalmanOptions;
+  static constexpr Guard kGuard = Guard::None;  // the bank re-acquires by itself
 
   /// Throws std::invalid_argument where an option is out of its range.
   explicit BankKalmanFilter(const Options& options);

@@ -7,16 +7,22 @@
 
 namespace sas_motion {
 
+class YamlSection;
+
+struct GatedKalmanOptions {
+  double probability = 0.99;  ///< share of good measurements that the gate lets through [-]
+};
+/// Reads all keys of a section. Throws ConfigError.
+void readOptions(YamlSection yaml, GatedKalmanOptions& options);
+
 /// Kalman filter that leaves out measurements whose NIS fails a chi-squared gate. Alone it locks out after a jump of
 /// the process; inside a ReacquiringFilter it comes back.
 template <int N>
 class GatedKalmanFilter {
  public:
   using Belief = Gaussian<N>;
-
-  struct Options {
-    double probability = 0.99;  ///< share of good measurements that the gate lets through [-]
-  };
+  using Options = GatedKalmanOptions;
+  static constexpr Guard kGuard = Guard::Reacquiring;
 
   /// Throws std::invalid_argument where an option is out of its range.
   explicit GatedKalmanFilter(const Options& options);

@@ -11,11 +11,15 @@ namespace sas_motion {
 template <int N>
 Gaussian<N> predictGaussian(const Gaussian<N>& belief, const Transition<N>& transition);
 
+/// How a filter that runs unattended is kept from rejecting good measurements for ever, see guarded().
+enum class Guard { None, Reacquiring, CalibratedAndReacquiring };
+
 /// The extended Kalman filter, Joseph form. (9) [Zhu2007]
 template <int N>
 class KalmanFilter {
  public:
   using Belief = Gaussian<N>;
+  static constexpr Guard kGuard = Guard::None;
 
   Belief predict(const Belief& belief, const Transition<N>& transition) const {
     return predictGaussian(belief, transition);

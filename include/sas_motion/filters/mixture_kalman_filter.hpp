@@ -8,6 +8,15 @@
 
 namespace sas_motion {
 
+class YamlSection;
+
+struct MixtureKalmanOptions {
+  std::array<double, 4> scales{1, 9, 100, 2500};                ///< s_j: variance over R [-]
+  std::array<double, 4> probabilities{0.85, 0.05, 0.05, 0.05};  ///< p_j, taken relative to their sum [-]
+};
+/// Reads all keys of a section. Throws ConfigError.
+void readOptions(YamlSection yaml, MixtureKalmanOptions& options);
+
 /// Kalman filter with Gaussian scale-mixture measurement noise, sum p_j N(0, s_j R) in every row.
 ///
 /// The posterior, a mixture of as many Gaussians as there are scales, is collapsed to its mean and covariance row by
@@ -18,12 +27,9 @@ template <int N>
 class MixtureKalmanFilter {
  public:
   using Belief = Gaussian<N>;
+  using Options = MixtureKalmanOptions;
+  static constexpr Guard kGuard = Guard::Reacquiring;
   static constexpr int kScales = 4;
-
-  struct Options {
-    std::array<double, kScales> scales{1, 9, 100, 2500};                ///< s_j: variance over R [-]
-    std::array<double, kScales> probabilities{0.85, 0.05, 0.05, 0.05};  ///< p_j, taken relative to their sum [-]
-  };
 
   /// Throws std::invalid_argument where a scale is not positive, a probability negative, or all probabilities are zero.
   explicit MixtureKalmanFilter(const Options& options);

@@ -7,6 +7,24 @@
 
 namespace sas_motion {
 
+class YamlSection;
+
+struct RobustKalmanOptions {
+  Loss loss{LossKind::Huber};      ///< rho2, on measurements whitened by R
+  int max_iterations = 10;         ///< 1 is the paper's single pass
+  double tolerance = 1e-6;         ///< fixed point: no weight moves more [-]
+  bool robustify_process = false;  ///< let W1 act, with the same loss
+  bool calibrate = true;  ///< in a CalibratedFilter, unless W1 acts or a single pass is made: let the covariance say
+                          ///< how large the errors are
+};
+/// Maximum correntropy is the robust filter with a Gaussian kernel exp(-r^2 / 2 bandwidth^2) on both parts: Welsch's
+/// loss with c = bandwidth sqrt(2).
+RobustKalmanOptions correntropyOptions(double bandwidth);
+
+/// Both read all keys of a section. Both throw ConfigError.
+void readOptions(YamlSection yaml, RobustKalmanOptions& options);
+void readCorrentropyOptions(YamlSection yaml, RobustKalmanOptions& options);
+
 /// Kalman filter by M-estimation [Zhu2007, eq 11-19; Cipra1991].
 ///
 /// Minimises sum rho1(P^{-1/2}(x^- - x)) + sum rho2(R^{-1/2}(z - H x)) (15) by iteratively re-weighted least squares
@@ -17,15 +35,8 @@ template <int N>
 class RobustKalmanFilter {
  public:
   using Belief = Gaussian<N>;
-
-  struct Options {
-    Loss loss{LossKind::Huber};      ///< rho2, on measurements whitened by R
-    int max_iterations = 10;         ///< 1 is the paper's single pass
-    double tolerance = 1e-6;         ///< fixed point: no weight moves more [-]
-    bool robustify_process = false;  ///< let W1 act, with the same loss
-    bool calibrate = true;  ///< in a CalibratedFilter, unless W1 acts or a single pass is made: let the covariance say
-                            ///< how large the errors are
-  };
+  using Options = RobustKalmanOptions;
+  static constexpr Guard kGuard = Guard::CalibratedAndReacquiring;
 
   /// Throws std::invalid_argument where max_iterations < 1 or tolerance is not positive.
   explicit RobustKalmanFilter(const Options& options);

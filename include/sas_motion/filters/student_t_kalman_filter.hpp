@@ -7,6 +7,17 @@
 
 namespace sas_motion {
 
+class YamlSection;
+
+struct StudentTKalmanOptions {
+  double degrees_of_freedom = 4;  ///< nu [-]
+  int max_iterations = 30;
+  double tolerance = 1e-6;  ///< fixed point: no weight moves more [-]
+  bool calibrate = true;    ///< in a CalibratedFilter: let the covariance say how large the errors are
+};
+/// Reads all keys of a section. Throws ConfigError.
+void readOptions(YamlSection yaml, StudentTKalmanOptions& options);
+
 /// Kalman filter with Student-t measurement noise in every row, by variational Bayes [Agamennoni2012; Piche2012].
 ///
 /// Each row's precision factor lambda = (nu + 1) / (nu + E[e^2] / R), with E[e^2] the squared residual at the posterior
@@ -16,13 +27,8 @@ template <int N>
 class StudentTKalmanFilter {
  public:
   using Belief = Gaussian<N>;
-
-  struct Options {
-    double degrees_of_freedom = 4;  ///< nu [-]
-    int max_iterations = 30;
-    double tolerance = 1e-6;  ///< fixed point: no weight moves more [-]
-    bool calibrate = true;    ///< in a CalibratedFilter: let the covariance say how large the errors are
-  };
+  using Options = StudentTKalmanOptions;
+  static constexpr Guard kGuard = Guard::CalibratedAndReacquiring;
 
   /// Throws std::invalid_argument where an option is out of its range.
   explicit StudentTKalmanFilter(const Options& options);

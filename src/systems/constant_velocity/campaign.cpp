@@ -8,10 +8,11 @@
 #include "sas_motion/evaluation/bounds.hpp"
 #include "sas_motion/evaluation/information.hpp"
 #include "sas_motion/evaluation/law_aware.hpp"
+#include "sas_motion/filters/filter_by_name.hpp"
+#include "sas_motion/filters/gaussian_sum_filter.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/noise/process_noise.hpp"
 #include "sas_motion/systems/constant_velocity/model.hpp"
-#include "sas_motion/systems/towfish/filter_by_name.hpp"
 
 namespace sas_motion::constant_velocity {
 namespace {
@@ -101,12 +102,10 @@ class ConstantVelocityCampaign final : public Campaign {
   explicit ConstantVelocityCampaign(YamlSection& yaml) {
     dimension = kStates;
     readDuration(yaml, 150);
-    config_.bank_kf.epoch = model_.step;
-    auto settings = yaml.section("settings");
-    readConfig(settings, config_);
-    settings.finish();
+    filters_.bank_kf.epoch = model_.step;
+    readSettings(yaml.section("settings"));
     readScoring(yaml, 10, [&](const std::string& name) {
-      return name == kOracle || name == kBayesReference || withFilter(name, config_, [](const auto&) {});
+      return name == kOracle || name == kBayesReference || withFilter<kStates>(name, filters_, [](const auto&) {});
     });
     laws_ = readLaws(yaml, Law(), &readLaw);
   }
@@ -114,6 +113,14 @@ class ConstantVelocityCampaign final : public Campaign {
   Named<double> bound(std::size_t law, const std::vector<std::uint64_t>& seeds) const override;
 
  private:
+  void readSettings(YamlSection settings) {
+    settings.number("reset_after", filters_.reset_after, {kTiny, 1e6});
+    auto filters = settings.section("estimators");
+    readOptions(filters, filters_);
+    filters.finish();
+    settings.finish();
+  }
+
   /// What the reference knows. Laws of the velocity may differ from those of the position in their spells alone; bursts
   /// are the sensor's.
   GaussianSumOptions lawsOf(const Law& law) const {
@@ -139,7 +146,7 @@ class ConstantVelocityCampaign final : public Campaign {
       else if (name == kBayesReference)
         run(GaussianSumFilter<kStates>(lawsOf(laws_[law])));
       else
-        withFilter(name, config_, run);
+        withGuardedFilter<kStates>(name, filters_, run);
     }
     return scorers;
   }
@@ -163,7 +170,7 @@ class ConstantVelocityCampaign final : public Campaign {
   }
 
   Model model_;
-  towfish::Config config_;
+  FilterOptions filters_;
   std::vector<Law> laws_;
 };
 

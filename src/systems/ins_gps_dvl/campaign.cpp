@@ -58,7 +58,7 @@ class InsCampaign final : public Campaign {
     const Config config = configOf(scenario);
     std::vector<RunScorer> runs;
     for (const auto& name : estimators) runs.emplace_back(name, scenario, trajectory, skip);
-    for (const auto filter_kind : kFilterKinds) {
+    for (const auto& filter_kind : filterKinds()) {
       std::vector<std::pair<Source, RunScorer*>> mine;
       for (std::size_t i = 0; i < runs.size(); ++i)
         if (const auto* solution = findSolution(estimators[i]); solution && solution->filter == filter_kind)

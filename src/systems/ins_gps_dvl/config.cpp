@@ -74,6 +74,9 @@ void readSession(YamlSection& yaml, Settings& settings) {
   yaml.number("lag", settings.session.lag, {0, 3600});
   yaml.number("max_gap", settings.session.max_gap, {kTiny, 1e6});
   yaml.number("output_rate", settings.output_rate, {0.001, 1e4});
+  auto estimators = yaml.section("estimators");
+  readOptions(estimators, settings.session.config.filters);
+  estimators.finish();
 }
 
 void readImuErrors(YamlSection& yaml, Parameters& p, double& rate) {

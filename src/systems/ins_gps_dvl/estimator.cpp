@@ -12,8 +12,8 @@ namespace {
 template <class Filter>
 class NavigatorEstimator final : public Estimator {
  public:
-  NavigatorEstimator(FilterKind kind, const Filter& filter, const NavigatorOptions& options, const Config& config,
-                     Source source)
+  NavigatorEstimator(const FilterKind& kind, const Filter& filter, const NavigatorOptions& options,
+                     const Config& config, Source source)
       : kind_(kind), filter_(filter), options_(options), config_(config), source_(source) {}
 
   void start(const NavigationState& state, Stamp stamp) override {

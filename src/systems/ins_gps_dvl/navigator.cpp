@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sas_motion/filters/conditioning.hpp"
+#include "sas_motion/filters/filter_by_name.hpp"
 
 namespace sas_motion::ins {
 namespace {
@@ -141,8 +142,8 @@ void Navigator<Filter>::feedBack() {
   belief_.mean.template head<9>().setZero();
 }
 
-template class Navigator<KalmanFilter<kStates>>;
-template class Navigator<RobustKalmanFilter<kStates>>;
+#define SAS_MOTION_INSTANTIATE(Filter) template class Navigator<Filter<kStates>>;
+SAS_MOTION_FOR_GAUSSIAN_FILTERS(SAS_MOTION_INSTANTIATE)
 template class Navigator<Unaided>;
 
 }  // namespace sas_motion::ins

@@ -125,7 +125,8 @@ std::string NavigationSession::setState(std::size_t lane, const OutputFrame& fra
 }
 
 void NavigationSession::configure(const Tuning& tuning) {
-  options_.config.robust_kf.loss = tuning.robust_kf;
+  options_.config.filters.robust_kf.loss = tuning.robust_kf;
+  options_.config.filters.gated_kf.probability = tuning.gated_kf_probability;
   options_.config.fixed_lag.loss = tuning.fixed_lag;
   live_->configure(options_.config);
 }
@@ -135,6 +136,8 @@ LaneReport NavigationSession::report(std::size_t index) const {
   return {lane.readings, lane.seconds, lane.estimator ? lane.estimator->failure() : ""};
 }
 
-Tuning tuningOf(const Config& config) { return {config.robust_kf.loss, config.fixed_lag.loss, 0.99}; }
+Tuning tuningOf(const Config& config) {
+  return {config.filters.robust_kf.loss, config.fixed_lag.loss, config.filters.gated_kf.probability};
+}
 
 }  // namespace sas_motion::ins

@@ -16,20 +16,40 @@ Matrix<9> covarianceOf(const Gaussian<kStates>& belief, const Errors& unit) {
 
 }  // namespace
 
+const std::vector<FilterKind>& filterKinds() {
+  static const std::vector<FilterKind> all = [] {
+    std::vector<FilterKind> kinds{{"", false}};
+    for (const char* name : kFilterNames)
+      if (sas_motion::withFilter<kStates>(name, {}, [](const auto&) {})) kinds.push_back({name, true});
+    kinds.push_back({"kf", false});
+    return kinds;
+  }();
+  return all;
+}
+
 const std::vector<NamedSolution>& namedSolutions() {
-  using Kind = FilterKind;
-  static const std::vector<NamedSolution> all{{"ins", Kind::Unaided, Source::Fused},
-                                              {"gps", Kind::Unaided, Source::Gps},
-                                              {"dvl", Kind::Unaided, Source::Dvl},
-                                              {"ckf27", Kind::Kalman, Source::Fused},
-                                              {"gps_ckf27", Kind::Kalman, Source::Gps},
-                                              {"dvl_ckf27", Kind::Kalman, Source::Dvl},
-                                              {"open_loop_ckf27", Kind::OpenLoop, Source::Fused},
-                                              {"robust_ckf27", Kind::Robust, Source::Fused},
-                                              {"gps_robust_ckf27", Kind::Robust, Source::Gps},
-                                              {"dvl_robust_ckf27", Kind::Robust, Source::Dvl},
-                                              {"smooth_ckf27", Kind::Kalman, Source::Smooth},
-                                              {"smooth_robust_ckf27", Kind::Robust, Source::Smooth}};
+  static const std::vector<NamedSolution> all = [] {
+    std::vector<NamedSolution> solutions;
+    for (const auto& kind : filterKinds()) {
+      // "kf" of 27 states was called "ckf" when there were only two of them
+      const std::string name = (kind.filter == "kf"          ? "ckf"
+                                : kind.filter == "robust_kf" ? "robust_ckf"
+                                                             : kind.filter) +
+                               "27";
+      if (kind.filter.empty()) {
+        solutions.insert(solutions.end(),
+                         {{"ins", kind, Source::Fused}, {"gps", kind, Source::Gps}, {"dvl", kind, Source::Dvl}});
+      } else if (kind.feedback) {
+        solutions.insert(solutions.end(), {{name, kind, Source::Fused},
+                                           {"gps_" + name, kind, Source::Gps},
+                                           {"dvl_" + name, kind, Source::Dvl},
+                                           {"smooth_" + name, kind, Source::Smooth}});
+      } else {
+        solutions.push_back({"open_loop_" + name, kind, Source::Fused});
+      }
+    }
+    return solutions;
+  }();
   return all;
 }
 
@@ -66,8 +86,9 @@ std::optional<NavigationSolution> solutionOf(const Navigator<Filter>& navigator,
   return solution;
 }
 
-template std::optional<NavigationSolution> solutionOf(const Navigator<KalmanFilter<kStates>>&, Source);
-template std::optional<NavigationSolution> solutionOf(const Navigator<RobustKalmanFilter<kStates>>&, Source);
+#define SAS_MOTION_INSTANTIATE(Filter) \
+  template std::optional<NavigationSolution> solutionOf(const Navigator<Filter<kStates>>&, Source);
+SAS_MOTION_FOR_GAUSSIAN_FILTERS(SAS_MOTION_INSTANTIATE)
 template std::optional<NavigationSolution> solutionOf(const Navigator<Unaided>&, Source);
 
 }  // namespace sas_motion::ins

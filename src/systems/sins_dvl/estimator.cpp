@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sas_motion/systems/ins_gps_dvl/solutions.hpp"
+
 namespace sas_motion::sins {
 
 template <int N>
@@ -26,6 +28,16 @@ const std::vector<NamedFilter>& namedFilters() {
   return all;
 }
 
+const std::vector<std::string>& fusionNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& solution : ins::namedSolutions())
+      if (solution.filter.feedback && solution.source == ins::Source::Fused) all.push_back(solution.name);
+    return all;
+  }();
+  return names;
+}
+
 const NamedFilter* findFilter(const std::string& name) {
   const auto& all = namedFilters();
   const auto found =
@@ -35,7 +47,7 @@ const NamedFilter* findFilter(const std::string& name) {
 
 Config startedAt(Config config, const ins::Config& other) {
   const ins::Parameters& found = other.parameters;
-  config.robust_kf = other.robust_kf;
+  config.filters = other.filters;
   config.fixed_lag = other.fixed_lag;
   Parameters& p = config.parameters;
   p.start_position = found.start_position;
@@ -48,7 +60,9 @@ Config startedAt(Config config, const ins::Config& other) {
 }
 
 std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config) {
-  if (name == "ckf27" || name == "robust_ckf27") return ins::makeEstimator(name, inSmallAngles(config));
+  const auto& fusions = fusionNames();
+  if (std::find(fusions.begin(), fusions.end(), name) != fusions.end())
+    return ins::makeEstimator(name, inSmallAngles(config));
   const NamedFilter* found = findFilter(name);
   if (!found) return nullptr;
   return config.accelerometer_bias ? makeNavigator<kStates>(*found, config)
@@ -59,7 +73,7 @@ ins::Config inSmallAngles(const Config& config) {
   ins::Config other;
   other.parameters = inSmallAngles(config.parameters);
   other.imu = config.imu;
-  other.robust_kf = config.robust_kf;
+  other.filters = config.filters;
   other.fixed_lag = config.fixed_lag;
   return other;
 }

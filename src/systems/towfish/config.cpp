@@ -4,25 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include "sas_motion/config/yaml_loss.hpp"
 
 namespace sas_motion::towfish {
 namespace {
-
-void readLoss(YamlSection& yaml, Loss& loss) {
-  std::string name = lossName(loss.kind());
-  yaml.text("loss", name);
-  LossKind kind{};
-  try {
-    kind = lossFromName(name);
-  } catch (const std::invalid_argument& error) {
-    yaml.fail("loss", std::string("names no loss: ") + error.what());
-  }
-  double tuning = kind == loss.kind() ? loss.tuning() : Loss::defaultTuning(kind);
-  yaml.number("tuning", tuning, {kTiny, 1e9});
-  loss = Loss(kind, tuning);
-}
 
 /// How much a measurement weighs. A turn rate is an input of the motion and has no weight.
 void readWeight(YamlSection& yaml, Sensor sensor, SensorOptions& options) {
@@ -49,55 +34,6 @@ void readSensor(YamlSection yaml, Sensor sensor, SensorOptions& options) {
   yaml.finish();
 }
 
-void readRobust(YamlSection yaml, RobustKalmanFilter<kStates>::Options& options) {
-  readLoss(yaml, options.loss);
-  yaml.integer("max_iterations", options.max_iterations, 1, 1000);
-  yaml.number("tolerance", options.tolerance, {kTiny, 1});
-  yaml.boolean("robustify_process", options.robustify_process);
-  yaml.boolean("calibrate", options.calibrate);
-  yaml.finish();
-}
-
-/// Maximum correntropy is the robust filter with a Gaussian kernel exp(-r^2 / 2 sigma^2) on both parts: Welsch's loss
-/// with c = sigma sqrt(2).
-void readCorrentropy(YamlSection yaml, RobustKalmanFilter<kStates>::Options& options) {
-  double bandwidth = options.loss.tuning() / std::sqrt(2.0);
-  yaml.number("bandwidth", bandwidth, {kTiny, 1e9});
-  yaml.integer("max_iterations", options.max_iterations, 1, 1000);
-  yaml.number("tolerance", options.tolerance, {kTiny, 1});
-  yaml.finish();
-  options.loss = Loss(LossKind::Welsch, bandwidth * std::sqrt(2.0));
-}
-
-void readFour(YamlSection& yaml, const std::string& key, std::array<double, 4>& values, double lower) {
-  std::vector<double> numbers(values.begin(), values.end());
-  yaml.numbers(key, numbers, values.size());
-  if (*std::min_element(numbers.begin(), numbers.end()) < lower)
-    yaml.fail(key, fmt::format("must be numbers of at least {}", lower));
-  std::copy(numbers.begin(), numbers.end(), values.begin());
-}
-
-void readMixture(YamlSection yaml, MixtureKalmanFilter<kStates>::Options& options) {
-  readFour(yaml, "scales", options.scales, kTiny);
-  readFour(yaml, "probabilities", options.probabilities, 0);
-  if (*std::max_element(options.probabilities.begin(), options.probabilities.end()) == 0)
-    yaml.fail("probabilities", "must not all be 0");
-  yaml.finish();
-}
-
-void readBank(YamlSection yaml, BankKalmanFilter<kStates>::Options& options) {
-  yaml.number("epoch", options.epoch, {1e-3, 3600});
-  yaml.number("jump_probability", options.jump_probability, {1e-6, 0.199});
-  yaml.number("jump_scale", options.jump_scale, {1, 1e6});
-  readFour(yaml, "scales", options.scales, kTiny);
-  readFour(yaml, "probabilities", options.probabilities, kTiny);
-  yaml.number("sticky", options.sticky, {0, 0.99});
-  yaml.number("repeat", options.repeat, {0, 1});
-  yaml.number("burst", options.burst, {0, 1e6});
-  yaml.number("patience", options.patience, {kTiny, 1e6});
-  yaml.finish();
-}
-
 void readSmoother(YamlSection yaml, SmootherOptions& options) {
   readLoss(yaml, options.loss);
   yaml.integer("max_iterations", options.max_iterations, 1, 10000);
@@ -106,20 +42,7 @@ void readSmoother(YamlSection yaml, SmootherOptions& options) {
 }
 
 void readEstimators(YamlSection yaml, Config& config) {
-  yaml.section("kf").finish();
-  readRobust(yaml.section("robust_kf"), config.robust_kf);
-  readCorrentropy(yaml.section("mckf"), config.mckf);
-  auto student = yaml.section("student_t_kf");
-  student.number("degrees_of_freedom", config.student_t_kf.degrees_of_freedom, {kTiny, 1e9});
-  student.integer("max_iterations", config.student_t_kf.max_iterations, 1, 1000);
-  student.number("tolerance", config.student_t_kf.tolerance, {kTiny, 1});
-  student.boolean("calibrate", config.student_t_kf.calibrate);
-  student.finish();
-  auto gated = yaml.section("gated_kf");
-  gated.number("probability", config.gated_kf.probability, {0.5, 0.999999});
-  gated.finish();
-  readMixture(yaml.section("mixture_kf"), config.mixture_kf);
-  readBank(yaml.section("bank_kf"), config.bank_kf);
+  readOptions(yaml, config.filters);
   readSmoother(yaml.section("rts"), config.rts);
   readSmoother(yaml.section("batch"), config.batch);
   auto gnc = yaml.section("gnc");
@@ -141,9 +64,6 @@ Config::Config() {
   sensor(Sensor::Heading) = {0.5 * kRadPerDeg, 0.01 * kRadPerDeg, false, 0, true};
   sensor(Sensor::Speed) = {0.05, 0.001, false, 0, true};
   sensor(Sensor::TurnRate) = {0.1 * kRadPerDeg, 0, false, 0, true};
-  robust_kf.loss = Loss(LossKind::Huber);
-  mckf.loss = Loss(LossKind::Welsch, 5 * std::sqrt(2.0));
-  mckf.robustify_process = true;
 }
 
 void readMotionParameters(YamlSection yaml, MotionParameters& p) {
@@ -170,7 +90,7 @@ void readConfig(YamlSection& yaml, Config& config) {
   start.number("speed_sigma", config.start.speed_sigma, {kTiny, 100});
   start.finish();
   yaml.number("lag", config.lag, {0, 3600});
-  yaml.number("reset_after", config.reset_after, {kTiny, 1e6});
+  yaml.number("reset_after", config.filters.reset_after, {kTiny, 1e6});
   yaml.number("max_gap", config.max_gap, {kTiny, 1e6});
   yaml.number("input_hold", config.input_hold, {0, 3600});
   yaml.angle("turn_rate_limit_deg", config.turn_rate_limit, {kTiny, 3600});

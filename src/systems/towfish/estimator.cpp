@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sas_motion/systems/towfish/filter_by_name.hpp"
 #include "sas_motion/systems/towfish/filter_timeline.hpp"
 #include "sas_motion/systems/towfish/rts.hpp"
 #include "sas_motion/systems/towfish/smoother_recorder.hpp"
@@ -17,7 +16,7 @@ namespace {
 template <class Filter>
 Filter filterOf(const std::string& name, const Config& config) {
   std::optional<Filter> made;
-  withFilter(name, config, [&](const auto& filter) {
+  withGuardedFilter<kStates>(name, config.filters, [&](const auto& filter) {
     if constexpr (std::is_same_v<std::decay_t<decltype(filter)>, Filter>) made.emplace(filter);
   });
   return *made;
@@ -27,7 +26,7 @@ Filter filterOf(const std::string& name, const Config& config) {
 
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config) {
   std::unique_ptr<Estimator> estimator;
-  withFilter(name, config, [&](const auto& filter) {
+  withGuardedFilter<kStates>(name, config.filters, [&](const auto& filter) {
     using Filter = std::decay_t<decltype(filter)>;
     estimator =
         std::make_unique<FilterTimeline<Filter>>([name](const Config& c) { return filterOf<Filter>(name, c); }, config);

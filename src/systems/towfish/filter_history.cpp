@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "systems/towfish/instantiate.hpp"
+#include "sas_motion/filters/filter_by_name.hpp"
+#include "sas_motion/filters/gaussian_sum_filter.hpp"
 
 namespace sas_motion::towfish {
 template <class Filter>
@@ -86,6 +87,8 @@ Gaussian<kStates> FilterHistory<Filter>::at(Stamp stamp) const {
   return stamp == from.stamp ? gaussian(from.belief) : gaussian(predicted(from, stamp));
 }
 
-SAS_MOTION_FOR_FILTERS(FilterHistory)
+#define SAS_MOTION_INSTANTIATE(Filter) template class FilterHistory<Guarded<Filter<kStates>>>;
+SAS_MOTION_FOR_FILTERS(SAS_MOTION_INSTANTIATE)
+template class FilterHistory<GaussianSumFilter<kStates>>;
 
 }  // namespace sas_motion::towfish

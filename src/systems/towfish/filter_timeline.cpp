@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/systems/towfish/filter_timeline.hpp"
 
+#include "sas_motion/filters/filter_by_name.hpp"
+#include "sas_motion/filters/gaussian_sum_filter.hpp"
 #include "sas_motion/systems/towfish/start.hpp"
-#include "systems/towfish/instantiate.hpp"
 
 namespace sas_motion::towfish {
 namespace {
@@ -174,6 +175,8 @@ void FilterTimeline<Filter>::forget() {
   start_settled_ = false;
 }
 
-SAS_MOTION_FOR_FILTERS(FilterTimeline)
+#define SAS_MOTION_INSTANTIATE(Filter) template class FilterTimeline<Guarded<Filter<kStates>>>;
+SAS_MOTION_FOR_FILTERS(SAS_MOTION_INSTANTIATE)
+template class FilterTimeline<GaussianSumFilter<kStates>>;
 
 }  // namespace sas_motion::towfish

@@ -48,7 +48,7 @@ std::optional<SmoothingProblem> buildProblem(const std::vector<Measurement>& mea
   if (!start) return std::nullopt;
 
   SmoothingProblem problem{Model(config.model), start->prior, {}, {}, {}, {}, {}, {}};
-  const RobustKalmanFilter<kStates> filter(config.robust_kf);
+  const RobustKalmanFilter<kStates> filter(config.filters.robust_kf);
   Gaussian<kStates> belief = start->prior;
   HeldInput input;
   for (std::size_t i = start->first; i < measurements.size(); ++i) {

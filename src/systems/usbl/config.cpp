@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sas_motion/config/yaml_loss.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace sas_motion::usbl {
@@ -19,13 +20,6 @@ std::size_t choice(YamlSection& yaml, const std::string& key, const std::vector<
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) yaml.fail(key, fmt::format("is '{}' but must be one of {}", name, fmt::join(names, ", ")));
   return static_cast<std::size_t>(found - names.begin());
-}
-
-void readLoss(YamlSection& yaml, Loss& loss) {
-  const auto kind = static_cast<LossKind>(choice(yaml, "loss", lossNames(), static_cast<std::size_t>(loss.kind())));
-  double tuning = kind == loss.kind() ? loss.tuning() : Loss::defaultTuning(kind);
-  yaml.number("tuning", tuning, {kTiny, 1e9});
-  loss = Loss(kind, tuning);
 }
 
 /// Three numbers in some unit; each at least `lower`.

@@ -72,7 +72,8 @@ TEST(InsConfig, KeysReachTheirMembersInSiUnits) {
   const Settings s = read(
       "{imu: {rate: 200, gyro_constant_deg_h: 3, max_rate_deg: 180, time_offset: 0.01}, gps: {white: [1, 2, 3], floor: "
       "0.2, override_message: true}, "
-      "dvl: {enabled: false, lever_sigma: 0.3}, depth: {surface: 36.5}, start: {heading_deg: 2, max_age: 3}, lag: 1, "
+      "estimators: {gated_kf: {probability: 0.9}}, dvl: {enabled: false, lever_sigma: 0.3}, depth: {surface: 36.5}, "
+      "start: {heading_deg: 2, max_age: 3}, lag: 1, "
       "output_rate: 10}");
   const Parameters& p = s.session.config.parameters;
   EXPECT_DOUBLE_EQ(s.session.config.imu.period, 0.005);
@@ -83,6 +84,7 @@ TEST(InsConfig, KeysReachTheirMembersInSiUnits) {
   EXPECT_FALSE(s.of(Sensor::Dvl).enabled);
   EXPECT_EQ(p.dvl_lever_sigma, 0.3);
   EXPECT_EQ(s.surface, 36.5);
+  EXPECT_EQ(s.session.config.filters.gated_kf.probability, 0.9);
   EXPECT_NEAR(p.start_heading, 2 * kRadPerDeg, 1e-15);
   EXPECT_EQ(s.session.lag, 1);
   EXPECT_EQ(s.output_rate, 10);

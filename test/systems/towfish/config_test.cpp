@@ -31,8 +31,8 @@ void expectRefused(const std::string& text, const std::vector<std::string>& part
 TEST(TowfishConfig, NothingGivenMeansTheDefaults) {
   const Config config = read("{}"), defaults;
   EXPECT_EQ(config.model.current_sigma, defaults.model.current_sigma);
-  EXPECT_EQ(config.robust_kf.loss.kind(), LossKind::Huber);
-  EXPECT_EQ(config.robust_kf.loss.tuning(), 1.345);
+  EXPECT_EQ(config.filters.robust_kf.loss.kind(), LossKind::Huber);
+  EXPECT_EQ(config.filters.robust_kf.loss.tuning(), 1.345);
   EXPECT_NO_THROW(Model{config.model});
 }
 
@@ -46,13 +46,13 @@ TEST(TowfishConfig, ReadsWhatIsGivenInSiAndDegrees) {
   EXPECT_EQ(config.sensor(Sensor::Heading).time_offset, -0.1);
   EXPECT_TRUE(config.sensor(Sensor::Heading).override_message);
   EXPECT_FALSE(config.sensor(Sensor::Speed).enabled);
-  EXPECT_EQ(config.robust_kf.loss.kind(), LossKind::Tukey);
-  EXPECT_EQ(config.robust_kf.loss.tuning(), Loss::defaultTuning(LossKind::Tukey));  // not Huber's 1.345
-  EXPECT_FALSE(config.robust_kf.calibrate);
-  EXPECT_TRUE(config.student_t_kf.calibrate);
+  EXPECT_EQ(config.filters.robust_kf.loss.kind(), LossKind::Tukey);
+  EXPECT_EQ(config.filters.robust_kf.loss.tuning(), Loss::defaultTuning(LossKind::Tukey));  // not Huber's 1.345
+  EXPECT_FALSE(config.filters.robust_kf.calibrate);
+  EXPECT_TRUE(config.filters.student_t_kf.calibrate);
   EXPECT_EQ(config.rts.loss.tuning(), 3);
-  EXPECT_NEAR(config.mckf.loss.tuning(), 4 * std::sqrt(2.0), 1e-12);
-  EXPECT_EQ(config.mixture_kf.scales[3], 16);
+  EXPECT_NEAR(config.filters.mckf.loss.tuning(), 4 * std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(config.filters.mixture_kf.scales[3], 16);
 }
 
 TEST(TowfishConfig, RefusesWithFileKeyValueAndBound) {
@@ -80,10 +80,10 @@ TEST(TowfishConfig, WhatIsAcceptedMakesEveryFilter) {
                            "{reset_after: 1, estimators: {gated_kf: {probability: 0.5}}}",
                            "{estimators: {student_t_kf: {degrees_of_freedom: 1e9, max_iterations: 1}}}"}) {
     const Config config = read(text);
-    EXPECT_NO_THROW(MixtureKalmanFilter<kStates>{config.mixture_kf}) << text;
-    EXPECT_NO_THROW(GatedKalmanFilter<kStates>{config.gated_kf}) << text;
-    EXPECT_NO_THROW(StudentTKalmanFilter<kStates>{config.student_t_kf}) << text;
-    EXPECT_NO_THROW(RobustKalmanFilter<kStates>{config.mckf}) << text;
+    EXPECT_NO_THROW(MixtureKalmanFilter<kStates>{config.filters.mixture_kf}) << text;
+    EXPECT_NO_THROW(GatedKalmanFilter<kStates>{config.filters.gated_kf}) << text;
+    EXPECT_NO_THROW(StudentTKalmanFilter<kStates>{config.filters.student_t_kf}) << text;
+    EXPECT_NO_THROW(RobustKalmanFilter<kStates>{config.filters.mckf}) << text;
   }
   expectRefused("{estimators: {mixture_kf: {probabilities: [0, 0, 0, 0]}}}", {"estimators.mixture_kf.probabilities"});
 }

@@ -77,7 +77,7 @@ TEST(Control, OtherSettingsCountFromTheNextMeasurementOnAndNotInAReplay) {
   auto scenario = testing::survey(40);
   for (auto& sensor : scenario.sensors) sensor.noise = testing::contaminated(0.2, 20);
   Config config = testing::configFor(scenario), changed = config;
-  changed.robust_kf.loss = Loss(LossKind::L2);
+  changed.filters.robust_kf.loss = Loss(LossKind::L2);
   const auto measurements = testing::simulate(scenario, 24).measurements;
   const auto straight = makeEstimator("robust_kf", config), estimator = makeEstimator("robust_kf", config);
   Output expected, output;

@@ -32,7 +32,7 @@ struct Settings {
   const MessageOptions& of(Sensor sensor) const { return messages[static_cast<std::size_t>(sensor)]; }
 };
 
-/// Reads the sections imu, gps, dvl, depth, start and the keys beside them. Throws ConfigError.
+/// Reads the sections imu, gps, dvl, depth, start, estimators and the keys beside them. Throws ConfigError.
 void readSettings(YamlSection& yaml, Settings& settings);
 
 // What all systems with an INS have in common. All throw ConfigError.
@@ -42,7 +42,7 @@ void readMessages(YamlSection& yaml, MessageOptions& options);
 void readUnit(YamlSection& yaml, Mechanisation::Options& imu, Settings& settings);
 /// How the INS starts; its misalignment is at most `largest_deg`.
 void readStart(YamlSection& yaml, SessionOptions& session, double largest_deg);
-/// lag, max_gap, output_rate.
+/// The keys lag, max_gap and output_rate, and the section estimators.
 void readSession(YamlSection& yaml, Settings& settings);
 
 // What a scenario and the settings have in common: how wrong a sensor is. All throw ConfigError.

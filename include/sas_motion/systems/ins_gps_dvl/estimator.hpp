@@ -10,6 +10,7 @@
 
 #include "sas_motion/estimate/output.hpp"
 #include "sas_motion/estimate/smoother_options.hpp"
+#include "sas_motion/filters/filter_by_name.hpp"
 #include "sas_motion/systems/ins_gps_dvl/navigator.hpp"
 
 namespace sas_motion::ins {
@@ -25,7 +26,7 @@ struct FixedLag {
 struct Config {
   Parameters parameters;
   Mechanisation::Options imu;
-  RobustKalmanFilter<kStates>::Options robust_kf;
+  FilterOptions filters;
   SmootherOptions batch{Loss(LossKind::Huber), 100, 1e-7};
   FixedLag fixed_lag;
 };

@@ -12,8 +12,15 @@ namespace sas_motion::ins {
 
 /// What one run of a navigator has solutions of.
 enum class Source { Fused, Gps, Dvl, Smooth };
-enum class FilterKind { Unaided, Kalman, OpenLoop, Robust };
-constexpr FilterKind kFilterKinds[]{FilterKind::Unaided, FilterKind::Kalman, FilterKind::OpenLoop, FilterKind::Robust};
+/// What a run of a navigator is made with.
+struct FilterKind {
+  std::string filter;     ///< its name, see withFilter(); empty: none, so that nothing is fused
+  bool feedback = false;  ///< whether it corrects the INS, or the output alone
+
+  bool operator==(const FilterKind& other) const { return filter == other.filter && feedback == other.feedback; }
+};
+/// None, every filter of 27 states with feedback, and kf without.
+const std::vector<FilterKind>& filterKinds();
 
 /// A solution by name: which filter runs, and which of its solutions is meant.
 struct NamedSolution {
@@ -27,16 +34,12 @@ const NamedSolution* findSolution(const std::string& name);
 
 /// Calls `visit` with the filter of this kind and the options of its navigator.
 template <class Visit>
-void withFilter(FilterKind kind, const Config& config, const Visit& visit) {
+void withFilter(const FilterKind& kind, const Config& config, const Visit& visit) {
   NavigatorOptions options;
   options.imu = config.imu;
-  options.feedback = kind == FilterKind::Kalman || kind == FilterKind::Robust;
-  switch (kind) {
-    case FilterKind::Unaided: return visit(Unaided(), options);
-    case FilterKind::Kalman:
-    case FilterKind::OpenLoop: return visit(KalmanFilter<kStates>(), options);
-    case FilterKind::Robust: return visit(RobustKalmanFilter<kStates>(config.robust_kf), options);
-  }
+  options.feedback = kind.feedback;
+  if (kind.filter.empty()) return visit(Unaided(), options);
+  sas_motion::withFilter<kStates>(kind.filter, config.filters, [&](const auto& filter) { visit(filter, options); });
 }
 
 /// What the navigator answers at its stamp, or nothing where this source has no answer then.

@@ -18,11 +18,11 @@ struct Config {
   Mechanisation::Options imu;
   UnscentedParticleOptions
       particles;  ///< number, threads, seed; the estimator's name says the weighting and whether there is a loss
-  bool accelerometer_bias = true;                       ///< 19 states; else the paper's 16
-  double longest_step = 1;                              ///< of one prediction of the filter [s]
-  RobustKalmanFilter<ins::kStates>::Options robust_kf;  ///< of the fusion by small angles
-  ins::FixedLag fixed_lag;                              ///< of its factor graph
-  bool vectorised = true;  ///< square-root filters by vector instructions, where there are any
+  bool accelerometer_bias = true;  ///< 19 states; else the paper's 16
+  double longest_step = 1;         ///< of one prediction of the filter [s]
+  FilterOptions filters;           ///< of the fusion by small angles
+  ins::FixedLag fixed_lag;         ///< of its factor graph
+  bool vectorised = true;          ///< square-root filters by vector instructions, where there are any
 };
 
 /// The same where an alignment found the start and the lever arms.
@@ -42,7 +42,10 @@ const std::vector<NamedFilter>& namedFilters();
 /// Null for an unknown name.
 const NamedFilter* findFilter(const std::string& name);
 
-/// pf, upf, ss_srupf, their forms, ss_srukf, ukf, and beside them the fusion by small angles, ckf27 and robust_ckf27;
+/// The fusion by small angles, beside the named filters: ckf27, robust_ckf27 and so on.
+const std::vector<std::string>& fusionNames();
+
+/// pf, upf, ss_srupf, their forms, ss_srukf, ukf, and beside them the fusion by small angles;
 /// null for any other name. The INS is mechanised from its readings and, but for the latter, never corrected; its
 /// estimated errors are taken out of the solution. Audits hold the effective number of particles.
 std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config);

@@ -8,11 +8,7 @@
 
 #include "sas_motion/config/yaml_section.hpp"
 #include "sas_motion/estimate/smoother_options.hpp"
-#include "sas_motion/filters/bank_kalman_filter.hpp"
-#include "sas_motion/filters/gated_kalman_filter.hpp"
-#include "sas_motion/filters/mixture_kalman_filter.hpp"
-#include "sas_motion/filters/robust_kalman_filter.hpp"
-#include "sas_motion/filters/student_t_kalman_filter.hpp"
+#include "sas_motion/filters/filter_by_name.hpp"
 #include "sas_motion/systems/towfish/model.hpp"
 #include "sas_motion/systems/towfish/start.hpp"
 
@@ -32,19 +28,12 @@ struct Config {
   MotionParameters model;
   std::array<SensorOptions, kSensors> sensors{};  ///< by Sensor
   StartOptions start;
-  double lag = 5;  ///< late measurements are fused at their own time up to this age [s]
-  double reset_after =
-      20;  ///< a row disbelieved for longer, with readings that agree, is believed again by robust filters [s]
+  double lag = 5;                            ///< late measurements are fused at their own time up to this age [s]
   double max_gap = 10;                       ///< a stamp further ahead of all others is not believed alone [s]
   double input_hold = 1;                     ///< a turn rate is believed this long [s]
   double turn_rate_limit = 30 * kRadPerDeg;  ///< a faster turn rate is invalid [rad/s]
 
-  RobustKalmanFilter<kStates>::Options robust_kf;
-  RobustKalmanFilter<kStates>::Options mckf;
-  MixtureKalmanFilter<kStates>::Options mixture_kf;
-  BankKalmanFilter<kStates>::Options bank_kf;
-  StudentTKalmanFilter<kStates>::Options student_t_kf;
-  GatedKalmanFilter<kStates>::Options gated_kf;
+  FilterOptions filters;
   SmootherOptions rts;
   SmootherOptions batch;
   FixedLagOptions fixed_lag;

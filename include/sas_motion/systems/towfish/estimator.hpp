@@ -51,8 +51,7 @@ class Estimator {
   virtual void reset() = 0;
 };
 
-/// kf, gated_kf, robust_kf, student_t_kf, mckf, mixture_kf, bank_kf or rts, or robust_kf_LOSS (e.g. robust_kf_cauchy)
-/// for robust_kf with that loss at its customary tuning; null for any other name.
+/// Makes rts or a filter that withFilter() knows; null for any other name.
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
 
 using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string& name, const Config& config)>;

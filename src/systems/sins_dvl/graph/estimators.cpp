@@ -15,7 +15,8 @@ const std::vector<std::string>& anyEstimatorNames() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const auto& filter : namedFilters()) all.push_back(filter.name);
-    all.insert(all.end(), {"ckf27", "robust_ckf27", "batch", "fixed_lag"});
+    all.insert(all.end(), fusionNames().begin(), fusionNames().end());
+    all.insert(all.end(), {"batch", "fixed_lag"});
     return all;
   }();
   return names;

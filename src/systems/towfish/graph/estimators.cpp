@@ -20,9 +20,11 @@ std::unique_ptr<Estimator> makeAnyEstimator(const std::string& name, const Confi
 }
 
 const std::vector<std::string>& estimatorNames() {
-  static const std::vector<std::string> names{"kf",    "gated_kf",   "robust_kf", "student_t_kf",
-                                              "mckf",  "mixture_kf", "bank_kf",   "rts",
-                                              "batch", "gnc",        "fixed_lag"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all(kFilterNames.begin(), kFilterNames.end());
+    all.insert(all.end(), {"rts", "batch", "gnc", "fixed_lag"});
+    return all;
+  }();
   return names;
 }
 

@@ -41,7 +41,7 @@ struct FixedLagSmoother::Window {
   explicit Window(const Config& settings)
       : config(settings),
         model(settings.model),
-        filter(settings.robust_kf),
+        filter(settings.filters.robust_kf),
         smoother(settings.fixed_lag.lag + settings.fixed_lag.solve_interval + kMargin, isamParameters()) {}
 
   void start(const Gaussian<kStates>& prior, Stamp stamp) {
@@ -269,7 +269,7 @@ const char* FixedLagSmoother::setState(const Estimate& state, Output& output) {
 void FixedLagSmoother::configure(const Config& config) {
   config_ = config;
   window_->config = config;
-  window_->filter = RobustKalmanFilter<kStates>(config.robust_kf);
+  window_->filter = RobustKalmanFilter<kStates>(config.filters.robust_kf);
 }
 
 void FixedLagSmoother::reset() {
