@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "campaign/report.hpp"
-#include "sas_motion/imaging/focus_result.hpp"
+#include "sas_motion/imaging/focus_bench.hpp"
 
 namespace sas_motion {
 

@@ -8,7 +8,7 @@
 
 #include "campaign/imaging_measures.hpp"
 #include "campaign/systems.hpp"
-#include "sas_motion/imaging/focus_config.hpp"
+#include "sas_motion/imaging/focus_scene.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "systems/ins_gps_dvl/campaign.hpp"
 #include "systems/ins_gps_dvl/imaging_survey.hpp"
