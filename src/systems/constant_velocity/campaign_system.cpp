@@ -10,7 +10,7 @@
 #include "sas_motion/evaluation/information.hpp"
 #include "sas_motion/evaluation/law_aware.hpp"
 #include "sas_motion/io/cpu_time.hpp"
-#include "sas_motion/noise/process_noise.hpp"
+#include "sas_motion/noise/noise_source.hpp"
 #include "sas_motion/systems/constant_velocity/model.hpp"
 #include "sas_motion/systems/towfish/filter_by_name.hpp"
 
