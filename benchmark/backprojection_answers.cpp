@@ -10,7 +10,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "sas_motion/imaging/image_file.hpp"
+#include "sas_motion/imaging/image.hpp"
 #include "speckle_problem.hpp"
 
 namespace {

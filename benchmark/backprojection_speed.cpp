@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "sas_motion/imaging/factorized_backprojection.hpp"
+#include "sas_motion/imaging/backprojection.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "speckle_problem.hpp"
 

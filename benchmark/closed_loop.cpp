@@ -20,7 +20,7 @@
 
 #include "campaign/imaging_measures.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
-#include "sas_motion/imaging/focus_config.hpp"
+#include "sas_motion/imaging/focus_scene.hpp"
 #include "sas_motion/imaging/micronavigation.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
 #include "sas_motion/math/statistics.hpp"

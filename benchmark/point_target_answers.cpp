@@ -9,10 +9,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "imaging/fourier.hpp"
 #include "sas_motion/imaging/backprojection.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
-#include "sas_motion/imaging/fourier.hpp"
-#include "sas_motion/imaging/image_file.hpp"
+#include "sas_motion/imaging/image.hpp"
 #include "sas_motion/imaging/point_target.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
 #include "sas_motion/math/angles.hpp"

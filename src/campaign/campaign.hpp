@@ -8,7 +8,7 @@
 
 #include "evaluation/estimator_scorer.hpp"
 #include "sas_motion/config/yaml_section.hpp"
-#include "sas_motion/imaging/focus_result.hpp"
+#include "sas_motion/imaging/focus_bench.hpp"
 #include "sas_motion/noise/noise_law.hpp"
 
 namespace sas_motion {

@@ -5,15 +5,13 @@
 namespace sas_motion::imaging {
 namespace {
 
-/// Errors of a cut beside the same cut of the error-free image.
-void addCut(Named<double>& measures, const std::string& prefix, const std::string& name,
-            const imaging::CutMeasures& cut, const imaging::CutMeasures& reference) {
+void addCut(Named<double>& measures, const std::string& prefix, const std::string& name, const CutMeasures& cut,
+            const CutMeasures& reference) {
   measures.emplace_back(prefix + "pslr_" + name, cut.pslr - reference.pslr);
   measures.emplace_back(prefix + "islr_" + name, cut.islr - reference.islr);
   measures.emplace_back(prefix + "irw_" + name, cut.irw / reference.irw);
 }
 
-/// Of the first target.
 void addImage(Named<double>& measures, const std::string& prefix, const FocusedImage& image,
               const FocusedImage& error_free) {
   const auto &target = image.targets.front(), &reference = error_free.targets.front();
@@ -42,7 +40,6 @@ Named<double> imageMeasures(FocusBench& bench, const std::vector<PingPose>& pose
   return measures;
 }
 
-/// Of the middle of the aperture.
 double horizontalError(const std::vector<PingPose>& estimate, const std::vector<PingPose>& truth) {
   Eigen::Vector2d error = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < truth.size(); ++i)

@@ -9,14 +9,14 @@
 
 namespace sas_motion::imaging {
 
-/// What an image along these poses is like beside the error-free one, by backprojection, by that and autofocus
-/// (autofocus_...) and by the compensation of line-of-sight errors (compensated_...): pslr_, islr_ [dB], irw_ [of the
-/// error-free one] of the cuts along and in range, peak_loss [dB], peak_error [m]. And why: the aperture errors path,
-/// line_of_sight, along [m] and in wavelengths, and speed, that of the estimate along the track less the true one
-/// [m/s]. Without a peak whose side lobes lie inside the image its measures are left out.
+/// Measures of the first target in the image along these poses against the error-free image: by backprojection, with
+/// autofocus (autofocus_...) and by compensation of line-of-sight errors (compensated_...). They are pslr_, islr_ [dB]
+/// and irw_ [-] of the cuts along and in range, peak_loss [dB] and peak_error [m]; they are left out where the side
+/// lobes reach beyond the image. The causes: the aperture errors path, line_of_sight and along [m] and in wavelengths,
+/// and speed, the estimated speed along the track less the true one [m/s].
 Named<double> imageMeasures(FocusBench& bench, const std::vector<PingPose>& poses, double wavelength);
 
-/// Of the middle of the aperture [m].
+/// Horizontal error of the middle of the aperture [m].
 double horizontalError(const std::vector<PingPose>& estimate, const std::vector<PingPose>& truth);
 
 }  // namespace sas_motion::imaging

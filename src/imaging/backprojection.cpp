@@ -8,19 +8,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "imaging/backprojection_kernel.hpp"
-#include "imaging/upsampling.hpp"
-#include "sas_motion/imaging/interpolator.hpp"
-#include "sas_motion/parallel/threads.hpp"
+#include "imaging/fine_lines.hpp"
 
 namespace sas_motion::imaging {
 namespace {
 
-constexpr std::size_t kBatch = 32;  // lines upsampled at a time: what bounds the work space
 constexpr double kLargestTile = 2;  // side of a tile [m]: float then resolves its paths to 1e-7 m
 constexpr int kMostRows = 32, kMostColumns = 2 * kTileLanes;
 
-/// Where a tile lies in the image.
+/// A tile's place in the image.
 struct Patch {
   int row, column, rows, columns;
 };
@@ -40,7 +36,7 @@ class Tiling {
     return {row, column, std::min(rows_, grid_.rows - row), std::min(columns_, grid_.columns - column)};
   }
   int columns() const { return columns_; }
-  /// From a tile's centre to its furthest pixel, with the columns beyond the image's edge that fill up its vectors [m].
+  /// From a tile's centre to its furthest pixel, including columns beyond the image's edge that fill its vectors [m].
   double radius() const { return std::hypot(0.5 * rows_ * grid_.range_step, columns_ * grid_.along_step); }
   Eigen::Vector3d centre(const Patch& patch) const {
     return grid_.point(patch.row + 0.5 * (patch.rows - 1), patch.column + 0.5 * (patch.columns - 1));
@@ -63,65 +59,14 @@ class Tiling {
   int rows_, columns_, across_, down_;
 };
 
-/// Lines first ... first + kBatch on the fine grid, with zeros on both sides as far as a tile reaches beyond its
-/// centre.
-class FineLines {
- public:
-  FineLines(const EchoLines& lines, double reach)
-      : lines_(lines),
-        padding_(static_cast<int>(2 * reach / lines.sound_speed * lines.sample_rate * Upsampling::kFactor) +
-                 4 * kTileLanes),
-        length_(static_cast<std::size_t>(lines.samples) * Upsampling::kFactor + 4 * static_cast<std::size_t>(padding_)),
-        values_(2 * kBatch * length_) {}
-
-  void load(std::size_t first, int threads) {
-    first_ = first;
-    forEachTask(std::min(kBatch, lines_.paths.size() - first), threads, [&](std::size_t i) {
-      upsampling_.apply(lines_.line(first + i), lines_.samples, fine(i, 2 * padding_), plane());
-    });
-  }
-  /// Points the tile's line at the sample before the centre's echo. False where no pixel of the tile can hear anything.
-  bool aim(std::size_t line, double path_length, TileLine& result) {
-    const double position = lines_.position(path_length) * Upsampling::kFactor, floor = std::floor(position);
-    if (!(floor > -static_cast<double>(padding_) &&
-          floor < static_cast<double>(lines_.samples) * Upsampling::kFactor + static_cast<double>(padding_)))
-      return false;
-    const auto offset = static_cast<std::ptrdiff_t>(floor) + 2 * padding_;
-    result.position = static_cast<float>(position - floor);
-    result.real = fine(line - first_, offset);
-    result.imaginary = result.real + plane();
-    return true;
-  }
-  static double bytes(const EchoLines& lines, double reach) {
-    return 2.0 * kBatch * sizeof(float) *
-           (lines.samples * Upsampling::kFactor +
-            8 * reach / lines.sound_speed * lines.sample_rate * Upsampling::kFactor + 16 * kTileLanes);
-  }
-
- private:
-  /// Fine sample `offset` of a line, and from there to its imaginary part.
-  float* fine(std::size_t line, std::ptrdiff_t offset) {
-    return values_.data() + 2 * line * length_ + (interleaved_ ? 2 : 1) * offset;
-  }
-  std::ptrdiff_t plane() const { return interleaved_ ? 1 : static_cast<std::ptrdiff_t>(length_); }
-
-  const EchoLines& lines_;
-  Upsampling upsampling_;
-  bool interleaved_ = kernelInterleaves();
-  std::ptrdiff_t padding_;
-  std::size_t length_, first_ = 0;
-  std::vector<float> values_;
-};
-
 TileLeg tileLeg(const Eigen::Vector3d& antenna, const Eigen::Vector3d& centre, const ImageGrid& grid) {
   const Eigen::Vector3d way = centre - antenna;
   return {static_cast<float>(2 * way.dot(grid.range_axis)), static_cast<float>(2 * way.dot(grid.along_axis)),
           static_cast<float>(way.norm()), static_cast<float>(way.squaredNorm())};
 }
 
-/// With the receiver where it is when the centre's echo arrives. A pixel's echo arrives dL / c later, when the receiver
-/// has moved on: to first order in its speed over c, dL shrinks by 1 / (1 + w), where w is the receiver's speed towards
-/// the pixel over c.
+/// Places the receiver where it is when the centre's echo arrives. A pixel's echo arrives dL / c later; to first order
+/// in the receiver's speed over c, its motion shrinks dL by 1 / (1 + w), w being its speed towards the pixel over c.
 void setGeometry(TileLine& line, const EchoPath& path, const Eigen::Vector3d& centre, double path_length,
                  double sound_speed, const ImageGrid& grid) {
   const Eigen::Vector3d mach = path.receiver_velocity / sound_speed, receiver = path.receiver + mach * path_length;
@@ -178,7 +123,7 @@ class Backprojector {
       ++count;
     }
     const double cycles_per_metre = lines_.carrier / lines_.sound_speed,
-                 samples_per_metre = lines_.sample_rate * Upsampling::kFactor / lines_.sound_speed;
+                 samples_per_metre = lines_.sample_rate * FineLines::kFactor / lines_.sound_speed;
     float real[kMostRows * kMostColumns] = {}, imaginary[kMostRows * kMostColumns] = {};
     accumulateTile(tiling_.tile(patch, cycles_per_metre, samples_per_metre), tile_lines, count, monostatic_, real,
                    imaginary);

@@ -44,8 +44,8 @@ HWY_INLINE Complexes phasor(Floats turns) {
   return {cosine, hn::Mul(sine, x)};
 }
 
-/// A leg's length over that to the tile's centre, |a + d| - |a| = (2 a.d + d.d) / (|a + d| + |a|): no digits are lost.
-/// [m]
+/// A leg's length less that to the tile's centre, |a + d| - |a| = (2 a.d + d.d) / (|a + d| + |a|), without cancellation
+/// [m].
 HWY_INLINE Floats legDifference(const TileLeg& leg, float range, Floats track) {
   const F f;
   const auto row = hn::Set(f, range * (leg.along_range + range));
@@ -88,7 +88,7 @@ HWY_INLINE Neighbours gather(const TileLine& line, Integers index) {
           hn::GatherIndex(f, line.imaginary, index), hn::GatherIndex(f, line.imaginary + 1, index)};
 }
 
-/// Pixels beside each other along the track hear nearly the same samples: a few blocks of two registers hold them all.
+/// Neighbouring pixels along the track need nearly the same samples: a few blocks of two registers hold them all.
 HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
   constexpr int kMostBlocks = 4, kBlock = 32;
   const I i;
@@ -139,7 +139,7 @@ HWY_INLINE Neighbours neighbours(const TileLine& line, Integers index) {
 }
 #endif
 
-/// The line between its samples, linearly.
+/// Linear interpolation of the line.
 HWY_INLINE Complexes sampleAt(const TileLine& line, Floats position) {
   const auto floor = hn::Floor(position);
   const auto weight = hn::Sub(position, floor);

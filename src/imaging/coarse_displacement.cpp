@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "imaging/coarse_displacement.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "imaging/micronavigation_steps.hpp"
 
 namespace sas_motion::imaging {
 namespace {
 
-/// Pairs of channels that a lag of elements brings to one place: element i + lag of the first ping, i of the second.
+/// Channels at one place for a lag of elements: element i + lag of the first ping and i of the second.
 std::vector<std::pair<std::size_t, std::size_t>> pairsAtLag(int receivers, int lag) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (int i = std::max(0, -lag); i < std::min(receivers, receivers - lag); ++i)
@@ -32,8 +32,8 @@ double power(const AlignedLines& lines, std::size_t channel) {
   return sum / static_cast<double>(lines.samples);
 }
 
-/// Coherence at this lag of elements and shift of samples, blocks of range summed without their phases. Blocks leave a
-/// margin for shifts.
+/// Coherence at this lag of elements and shift of samples, summed over blocks of range without their phases. The blocks
+/// leave a margin for shifts.
 double coherence(const AlignedLines& lines, int lag, int shift, int margin) {
   double sum = 0, x = 0, y = 0;
   int samples = 0;
@@ -47,7 +47,7 @@ double coherence(const AlignedLines& lines, int lag, int shift, int margin) {
   return x > 0 && y > 0 ? sum / (std::sqrt(x * y) * samples) : 0;
 }
 
-/// Of a parabola through values at -1, 0, 1.
+/// Place of the peak of the parabola through values at -1, 0, 1; 0 where it has none.
 double parabolaPeak(double before, double middle, double after) {
   const double curvature = before - 2 * middle + after;
   return curvature < 0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "imaging/oversampling.hpp"
+#include "imaging/fourier.hpp"
 #include "sas_motion/imaging/point_target.hpp"
 
 namespace sas_motion::imaging {
 namespace {
 
-/// The oversampled cut's power with the places that bound its parts.
+/// The oversampled cut's power and the bounds of its lobes.
 class Lobes {
  public:
   explicit Lobes(std::vector<double> power)
@@ -18,7 +18,7 @@ class Lobes {
     right_null_ = firstMinimum(1);
   }
 
-  /// By a parabola through the peak and its neighbours.
+  /// Vertex of the parabola through the peak and its neighbours.
   double peakPosition() const {
     if (peak_ == 0 || peak_ + 1 == size()) return static_cast<double>(peak_);
     const double before = power_[peak_ - 1], at = power_[peak_], after = power_[peak_ + 1],
@@ -55,7 +55,7 @@ class Lobes {
     while (i + direction >= 0 && i + direction < size() && power_[i + direction] <= power_[i]) i += direction;
     return i;
   }
-  /// From the peak to where the power has fallen to half, linearly between samples.
+  /// Distance from the peak to half its power, linearly between samples.
   double crossing(int direction) const {
     const double half = power_[peak_] * std::pow(10, -0.3);
     std::ptrdiff_t i = peak_;
@@ -79,20 +79,17 @@ class Lobes {
 CutMeasures measureCut(const std::vector<std::complex<double>>& cut, double step) {
   const Spectrum fine = oversample(cut, kOversampling);
   std::vector<double> power(fine.size());
-  std::transform(fine.begin(), fine.end(), power.begin(),
-                 [](const std::complex<double>& value) { return std::norm(value); });
+  std::transform(fine.begin(), fine.end(), power.begin(), [](const auto& value) { return std::norm(value); });
   const Lobes lobes(std::move(power));
   const double fine_step = step / kOversampling;
-  CutMeasures measures;
-  measures.irw = lobes.halfPowerWidth() * fine_step;
-  measures.pslr = 10 * std::log10(lobes.highestSideLobe() / lobes.peakPower());
-  measures.islr = 10 * std::log10(lobes.sideLobeEnergy() / lobes.mainLobeEnergy());
-  measures.main_lobe = static_cast<double>(lobes.mainLobe()) * fine_step;
-  measures.extent = static_cast<double>(lobes.extent()) * fine_step;
-  measures.peak_position = lobes.peakPosition() * fine_step;
-  measures.peak_power = lobes.peakPower();
-  measures.complete = lobes.complete();
-  return measures;
+  return {lobes.halfPowerWidth() * fine_step,
+          10 * std::log10(lobes.highestSideLobe() / lobes.peakPower()),
+          10 * std::log10(lobes.sideLobeEnergy() / lobes.mainLobeEnergy()),
+          static_cast<double>(lobes.mainLobe()) * fine_step,
+          static_cast<double>(lobes.extent()) * fine_step,
+          lobes.peakPosition() * fine_step,
+          lobes.peakPower(),
+          lobes.complete()};
 }
 
 }  // namespace sas_motion::imaging

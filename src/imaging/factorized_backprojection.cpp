@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/factorized_backprojection.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "imaging/polar_image.hpp"
+#include "sas_motion/imaging/backprojection.hpp"
 #include "sas_motion/imaging/interpolator.hpp"
 #include "sas_motion/parallel/threads.hpp"
 
@@ -15,10 +14,9 @@ namespace {
 
 constexpr std::size_t kFewLines = 4;  // summed line by line
 constexpr std::size_t kChildren = 4;
-constexpr double kOversampling = 2;  // of polar images, both ways
-constexpr int kMarginPerLevel = 6;   // range samples: a parent's margin and the taps beyond it
-constexpr double kLargestCosineStep =
-    0.03;  // the taps beyond the grid then stay well away from the track's own direction
+constexpr double kOversampling = 2;          // of polar images, both ways
+constexpr int kMarginPerLevel = 6;           // range samples: a parent's margin and the taps beyond it
+constexpr double kLargestCosineStep = 0.03;  // keeps the taps beyond the grid well away from the track's direction
 
 class Factorization {
  public:
@@ -61,8 +59,8 @@ class Factorization {
     return image;
   }
 
-  /// With steps that sample the band of range, and that of the cosine: an aperture of length A turns 2 A / lambda
-  /// cycles over a unit of it.
+  /// An image whose steps sample the bands of range and cosine; an aperture of length A turns 2 A / lambda cycles over
+  /// a unit of cosine.
   PolarImage empty(std::size_t first, std::size_t last, int level) const {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (std::size_t i = first; i < last; ++i) centre += phaseCentre(i) / static_cast<double>(last - first);
@@ -109,7 +107,7 @@ class Factorization {
   Interpolator interpolator_;
 };
 
-/// The nearest row must lie before every sonar, for a range and an angle to mean one pixel.
+/// A range and an angle mean one pixel only where the nearest row lies before every sonar.
 void checkSides(const EchoLines& lines, const ImageGrid& grid) {
   for (const auto& path : lines.paths)
     if (!((grid.origin - path.transmitter).dot(grid.range_axis) > 0))

@@ -10,9 +10,11 @@
 
 #include "sas_motion/imaging/backprojection.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
+#include "sas_motion/imaging/image.hpp"
 #include "sas_motion/imaging/motion_compensation.hpp"
 #include "sas_motion/imaging/phase_gradient.hpp"
 #include "sas_motion/imaging/range_compression.hpp"
+#include "sas_motion/io/atomic_file.hpp"
 
 namespace sas_motion::imaging {
 namespace {
@@ -23,9 +25,9 @@ double lengthOf(const std::vector<PingPose>& poses) {
   return (poses.back().position - poses.front().position).head<2>().norm();
 }
 
-/// Echoes from the true track, compressed.
-EchoLines listen(const FocusSettings& settings, const std::vector<PingPose>& truth, const ImageGrid& grid,
-                 int threads) {
+/// Compressed echoes on the true track.
+EchoLines simulatedLines(const FocusSettings& settings, const std::vector<PingPose>& truth, const ImageGrid& grid,
+                         int threads) {
   EchoOptions echo;
   echo.noise = settings.noise;
   echo.seed = settings.seed;
@@ -43,9 +45,14 @@ void requireMemory(const FocusSettings& settings, const ImageGrid& grid, std::si
   if (needed > settings.memory_limit)
     throw std::invalid_argument(
         fmt::format("{} lines, {} x {} pixels and the scene need {:.0f} MB but may have {:.0f} MB; set a shorter "
-                    "aperture.duration, a smaller "
-                    "image.margin or speckle.density, or raise memory_limit",
+                    "aperture.duration, a smaller image.margin or speckle.density, or raise memory_limit",
                     lines, grid.rows, grid.columns, needed / 1e6, settings.memory_limit / 1e6));
+}
+
+FocusImage written(const FocusedImage& focused, const std::string& folder, const std::string& stem) {
+  makeFolder(folder);
+  writeImage(folder + "/" + stem, focused.image);
+  return {focused, stem};
 }
 
 }  // namespace
@@ -60,7 +67,7 @@ FocusBench::FocusBench(const FocusSettings& settings, std::vector<double> times,
       places_(targetPlaces(settings)),
       reference_powers_(places_.size(), 1.0) {
   requireMemory(settings, grid_, truth_.size() * static_cast<std::size_t>(settings.sonar.receivers));
-  lines_ = listen(settings, truth_, grid_, threads_);
+  lines_ = simulatedLines(settings, truth_, grid_, threads_);
   error_free_ = focus(truth_);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     reference_powers_[i] = std::max(error_free_.targets[i].range.peak_power, error_free_.targets[i].along.peak_power);
@@ -89,7 +96,7 @@ FocusedImage FocusBench::autofocus(const FocusedImage& focused, const std::vecto
   return measured(phaseGradientAutofocus(focused.image, {}).image, poses);
 }
 
-/// The grid goes where mean and trend of the trajectory's error move the image.
+/// Moves the grid to where the trajectory's error moves the image.
 FocusedImage FocusBench::backprojected(const EchoLines& lines, const std::vector<PingPose>& poses) const {
   BackprojectionOptions options;
   options.threads = threads_;
@@ -109,8 +116,7 @@ FocusedImage FocusBench::measured(Image image, const std::vector<PingPose>& pose
   return result;
 }
 
-/// Looks for the peak where mean and trend of the trajectory's error must have moved it, but measures its error from
-/// where the target is.
+/// Searches for the peak at the place to which the trajectory's error moves it, but measures its error from the target.
 PointTargetMeasures FocusBench::measuredTarget(const Image& image, const std::vector<PingPose>& poses,
                                                std::size_t target) const {
   const Eigen::Vector3d& place = places_[target];
@@ -122,6 +128,15 @@ PointTargetMeasures FocusBench::measuredTarget(const Image& image, const std::ve
   auto measures = measurePointTarget(image, place + error.image_shift, chip);
   if (measures.complete) measures.peak_error = (measures.peak_position - place).head<2>().norm();
   return measures;
+}
+
+FocusedTrajectory focusAlong(FocusBench& bench, const std::vector<PingPose>& poses, const std::string& folder,
+                             const std::string& name, bool autofocus) {
+  FocusedTrajectory result{name, "", bench.error(poses), {}, std::nullopt};
+  const FocusedImage focused = bench.focus(poses);
+  result.image = written(focused, folder, name);
+  if (autofocus) result.autofocused = written(bench.autofocus(focused, poses), folder, name + "_autofocus");
+  return result;
 }
 
 }  // namespace sas_motion::imaging

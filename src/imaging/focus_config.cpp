@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/focus_config.hpp"
-
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <limits>
 
 #include "sas_motion/config/yaml_vector.hpp"
-#include "sas_motion/imaging/sonar_config.hpp"
+#include "sas_motion/imaging/focus_scene.hpp"
+#include "sas_motion/imaging/sonar.hpp"
 
 namespace sas_motion::imaging {
 namespace {

@@ -10,15 +10,15 @@
 #include <complex>
 #include <stdexcept>
 
-#include "sas_motion/imaging/fourier.hpp"
+#include "imaging/fourier.hpp"
 
 namespace sas_motion::imaging {
 namespace {
 
 constexpr int kMostPixels = 1000000;         // along a side
-constexpr double kStepOverResolution = 0.4;  // leaves room for the beam's edges and a track that an estimate has turned
+constexpr double kStepOverResolution = 0.4;  // leaves room for the beam's edges and for an error of heading
 
-/// Outwards from the track.
+/// Unit vector outwards from the track.
 Eigen::Vector3d lookDirection(const FocusSettings& settings) { return {0, settings.starboard ? -1.0 : 1.0, 0}; }
 
 double groundRange(const SonarDescription& sonar, double range) {
@@ -30,8 +30,7 @@ double leastRange(const FocusSettings& settings) {
   return std::min_element(settings.targets.begin(), settings.targets.end(), nearer)->range;
 }
 
-/// Along track, of an aperture of this length; the elements hear little beyond the first null of their beam, however
-/// long it is.
+/// Resolution along track of an aperture of this length; the beam's first null bounds the aperture that contributes.
 double alongResolution(const FocusSettings& settings, double aperture_length) {
   return std::max(settings.sonar.wavelength() * leastRange(settings) / (2 * aperture_length),
                   settings.sonar.element / 4);
@@ -88,8 +87,8 @@ ImageGrid focusGrid(const FocusSettings& settings, double aperture_length, int h
   grid.range_step = image.range_step > 0 ? image.range_step : kStepOverResolution * sonar.rangeResolution();
   grid.along_step =
       image.along_step > 0 ? image.along_step : kStepOverResolution * alongResolution(settings, aperture_length);
-  const double margin_needed =
-      (half_chip + 1) * std::max(grid.range_step, grid.along_step) + 0.1;  // 0.1 m to look for a peak in
+  constexpr double kSearch = 0.1;  // least radius of the search for a peak [m]
+  const double margin_needed = (half_chip + 1) * std::max(grid.range_step, grid.along_step) + kSearch;
   if (image.margin < margin_needed)
     throw std::invalid_argument(fmt::format(
         "image.margin is {} but must be at least {:.3g}, or the side lobes to be measured lie outside the image",
@@ -99,8 +98,8 @@ ImageGrid focusGrid(const FocusSettings& settings, double aperture_length, int h
   const Eigen::Vector2d first = box.min().array() - image.margin, size = box.sizes().array() + 2 * image.margin;
   grid.origin = first.x() * grid.range_axis + first.y() * grid.along_axis;
   grid.rows = pixelCount("range_step", size.x(), grid.range_step);
-  grid.columns = static_cast<int>(fastLength(static_cast<std::size_t>(
-      pixelCount("along_step", size.y(), grid.along_step))));  // autofocus transforms along them
+  // Autofocus transforms along the columns.
+  grid.columns = static_cast<int>(fastLength(pixelCount("along_step", size.y(), grid.along_step)));
   return grid;
 }
 
@@ -125,8 +124,7 @@ double memoryNeeded(const FocusSettings& settings, const ImageGrid& grid, std::s
       (2 * (sonar.far_range - sonar.near_range) / sonar.sound_speed + sonar.pulse_length) * sonar.sampleRate();
   const double area = grid.rows * grid.range_step * grid.columns * grid.along_step;
   const double raw_and_compressed = 2 * sizeof(std::complex<float>) * samples * static_cast<double>(lines);
-  const double scatterers =
-      sizeof(Scatterer) * settings.speckle.density * area * 2;  // a growing list takes up to twice its length
+  const double scatterers = sizeof(Scatterer) * settings.speckle.density * area * 2;  // capacity of a growing vector
   const double image_and_reading = 4 * sizeof(std::complex<float>) * static_cast<double>(grid.pixels());
   return raw_and_compressed + scatterers + image_and_reading;
 }

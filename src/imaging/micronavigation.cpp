@@ -9,8 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "imaging/coarse_displacement.hpp"
-#include "imaging/speckle_model.hpp"
+#include "imaging/micronavigation_steps.hpp"
 #include "sas_motion/parallel/threads.hpp"
 
 namespace sas_motion::imaging {
@@ -18,7 +17,7 @@ namespace {
 
 constexpr int kEnvelopeRounds = 3, kPhaseRounds = 4;
 
-/// One pair of pings while its displacement is sought: each step moves the second pose and its echoes on.
+/// One pair of pings during the search for its displacement; each step moves the second pose and its echoes.
 class Displacement {
  public:
   Displacement(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar, const BeamCoherence& beam,
@@ -29,9 +28,8 @@ class Displacement {
         beam_(beam),
         options_(options),
         pair_(sonar, first, second, options),
-        believed_(second.position) {
-    realign();
-  }
+        predicted_(second.position),
+        aligned_(align(lines, line_, sonar, pair_)) {}
 
   MicronavigationVerdict coarse() {
     const CoarseDisplacement found = searchDisplacement(aligned_, pair_, sonar_, options_);
@@ -43,7 +41,7 @@ class Displacement {
     return found.coherence < kLeastEnvelope ? MicronavigationVerdict::Incoherent : MicronavigationVerdict::Valid;
   }
 
-  /// To the phase's optimum, and over to another wavelength where the envelope says so.
+  /// Moves to the optimum of the phase, and to another wavelength where the envelope fits that better.
   MicronavigationVerdict fine() {
     double wrap = 0;
     for (int round = 0; round < kPhaseRounds; ++round) {
@@ -79,14 +77,14 @@ class Displacement {
     result.sight_sigma = std::sqrt(axes.eigenvalues()(0));
     result.turn_sigma = std::sqrt(fit_.covariance(kTurn, kTurn));
     result.sight_body = pair_.C_local_body.transpose() * sight;
-    result.correction_body = pair_.C_local_body.transpose() * (pair_.poses[1].position - believed_);
+    result.correction_body = pair_.C_local_body.transpose() * (pair_.poses[1].position - predicted_);
     result.delay = range / sonar_.sound_speed;
     result.coherence = fit_.parameters(kBetweenPings);
     result.overlap = sonar_.receivers - static_cast<int>(std::lround(std::abs(result.along) / (sonar_.spacing / 2)));
     return result;
   }
 
-  /// Whether the envelope tells one wavelength from the next: four of its standard deviations within a quarter.
+  /// Whether four standard deviations of the envelope exceed a quarter of a wavelength.
   bool ambiguous(const Micronavigation& result) const {
     const double envelope_over_phase = std::sqrt(12.0) * sonar_.carrier / sonar_.bandwidth;
     return 4 * result.sight_sigma * envelope_over_phase > sonar_.wavelength() / 4;
@@ -98,9 +96,9 @@ class Displacement {
   }
 
  private:
-  static constexpr double kLeastEnvelope = 0.15;  // noise alone stays below
+  static constexpr double kLeastEnvelope = 0.15;  // the coherence of noise is lower
 
-  /// Of the displacement across the track, on axes that turn by half of what the array turns.
+  /// Covariance of the displacement across the track, on axes that turn by half of the array's turn.
   Eigen::Matrix2d acrossCovariance() const {
     const Eigen::Vector3d sight = pair_.sight(middleRange(), 0);
     Eigen::Matrix<double, 2, 3> jacobian;  // by kAcross, kDown, kTurn
@@ -110,13 +108,12 @@ class Displacement {
   }
 
   double middleRange() const { return 0.5 * (sonar_.near_range + sonar_.far_range); }
-  void realign() { aligned_ = align(lines_, line_, sonar_, pair_); }
 
   bool settled() const {
     return (fit_.parameters.head<4>().array().abs() < 0.1 * fit_.covariance.diagonal().head<4>().array().sqrt()).all();
   }
 
-  /// Moves the second pose by this on the track's axes [m], and turns its fore end towards the sight [rad].
+  /// Moves the second pose by `step` on the track's axes [m] and turns its fore end towards the sight [rad].
   void move(const Eigen::Vector3d& step, double turn) {
     PingPose second = pair_.poses[1];
     const Eigen::Vector3d lever_body = (sonar_.transmitter_body + sonar_.receiver_array_body) / 2,
@@ -126,7 +123,7 @@ class Displacement {
     second.position += step.x() * pair_.forward + step.y() * pair_.across + step.z() * pair_.down + lever -
                        second.C_local_body * lever_body;
     pair_ = PingPair(sonar_, pair_.poses[0], second, options_);
-    realign();
+    aligned_ = align(lines_, line_, sonar_, pair_);
   }
 
   const EchoLines& lines_;
@@ -135,18 +132,11 @@ class Displacement {
   const BeamCoherence& beam_;
   const MicronavigationOptions& options_;
   PingPair pair_;
-  Eigen::Vector3d believed_;
+  Eigen::Vector3d predicted_;
   AlignedLines aligned_;
   SpeckleEstimate fit_;
   int lag_ = 0;
 };
-
-bool finite(const EchoLines& lines, std::size_t first_line, std::size_t count) {
-  const auto samples = static_cast<std::size_t>(lines.samples);
-  return std::all_of(
-      lines.line(first_line), lines.line(first_line) + count * samples,
-      [](const std::complex<float>& value) { return std::isfinite(value.real()) && std::isfinite(value.imag()); });
-}
 
 Micronavigation measure(const EchoLines& lines, std::size_t ping, const SonarDescription& sonar,
                         const BeamCoherence& beam, const PingPose& first, const PingPose& second,
@@ -157,7 +147,7 @@ Micronavigation measure(const EchoLines& lines, std::size_t ping, const SonarDes
     result.verdict = verdict;
     return result;
   };
-  if (!finite(lines, ping * receivers, 2 * receivers)) return refused(MicronavigationVerdict::NotFinite);
+  if (!lines.finite(ping * receivers, 2 * receivers)) return refused(MicronavigationVerdict::NotFinite);
   Displacement displacement(lines, ping, sonar, beam, first, second, options);
   if (!displacement.overlaps()) return refused(MicronavigationVerdict::NoOverlap);
   if (const auto verdict = displacement.coarse(); verdict != MicronavigationVerdict::Valid) return refused(verdict);

@@ -12,22 +12,20 @@
 namespace sas_motion::imaging {
 namespace {
 
-Eigen::Vector3d phaseCentre(const EchoPath& path) { return (path.transmitter + path.receiver) / 2; }
-
-/// Where the line was off the ideal track, at transmission, and how fast that grew until the echo came in.
+/// A line's deviation from the ideal track at transmission, and its rate until the echo arrives.
 struct Deviation {
-  double sway = 0, sway_rate = 0;    ///< of the phase centre, away from the bottom looked at [m], [m/s]
+  double sway = 0, sway_rate = 0;    ///< of the phase centre, away from the target [m], [m/s]
   double heave = 0, heave_rate = 0;  ///< upwards [m], [m/s]
   double height = 0;                 ///< of the ideal track over the bottom [m]
 
-  /// How much too far a target at this ideal slant range, whose echo takes `delay`, looked [m].
+  /// Error of the slant range of a target at this ideal range, whose echo takes `delay` [m].
   double slantError(double range, double delay) const {
     const double ground = std::sqrt(std::max(0.0, range * range - height * height));
     return (ground * (sway + sway_rate * delay) + height * (heave + heave_rate * delay)) / range;
   }
 };
 
-/// One line as it had sounded from the ideal track.
+/// The line as from the ideal track.
 void compensateLine(const EchoLines& lines, std::size_t i, const Deviation& deviation, double bandwidth,
                     const Interpolator& interpolator, std::complex<float>* result) {
   const double smallest_shift = lines.sound_speed / (2 * bandwidth) / 4;
@@ -46,10 +44,10 @@ void compensateLine(const EchoLines& lines, std::size_t i, const Deviation& devi
 StraightTrack fitTrack(const EchoLines& lines) {
   if (lines.paths.size() < 2) throw std::invalid_argument("fitTrack: a track takes at least two lines");
   StraightTrack track;
-  for (const auto& path : lines.paths) track.origin += phaseCentre(path) / static_cast<double>(lines.paths.size());
+  for (const auto& path : lines.paths) track.origin += path.phaseCentre() / static_cast<double>(lines.paths.size());
   double xx = 0, xy = 0, yy = 0;
   for (const auto& path : lines.paths) {
-    const Eigen::Vector3d way = phaseCentre(path) - track.origin;
+    const Eigen::Vector3d way = path.phaseCentre() - track.origin;
     xx += way.x() * way.x();
     xy += way.x() * way.y();
     yy += way.y() * way.y();
@@ -57,7 +55,7 @@ StraightTrack fitTrack(const EchoLines& lines) {
   if (!(xx + yy > 0)) throw std::invalid_argument("fitTrack: the track has no length");
   const double angle = 0.5 * std::atan2(2 * xy, xx - yy);  // of the principal axis
   track.direction = {std::cos(angle), std::sin(angle), 0};
-  if (track.direction.dot(phaseCentre(lines.paths.back()) - phaseCentre(lines.paths.front())) < 0)
+  if (track.direction.dot(lines.paths.back().phaseCentre() - lines.paths.front().phaseCentre()) < 0)
     track.direction = -track.direction;
   return track;
 }
@@ -69,9 +67,9 @@ EchoLines compensateMotion(const EchoLines& lines, const StraightTrack& track, d
                         look = options.starboard ? Eigen::Vector3d(-port) : port;
   const Interpolator interpolator;
   forEachTask(lines.paths.size(), options.threads, [&](std::size_t i) {
-    const Eigen::Vector3d way = phaseCentre(lines.paths[i]) - track.origin;
+    const Eigen::Vector3d way = lines.paths[i].phaseCentre() - track.origin;
     EchoPath& path = compensated.paths[i];
-    const Eigen::Vector3d rate = path.receiver_velocity / 2;  // the transmitter's place is past
+    const Eigen::Vector3d rate = path.receiver_velocity / 2;  // only the receiver moves after transmission
     const Deviation deviation{-way.dot(look), -rate.dot(look), way.z(), rate.z(), track.origin.z() - options.bottom};
     compensateLine(lines, i, deviation, bandwidth, interpolator, compensated.line(i));
     path.transmitter = path.receiver = track.origin + way.dot(track.direction) * track.direction;

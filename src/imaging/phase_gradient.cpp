@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "imaging/oversampling.hpp"
+#include "imaging/fourier.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace sas_motion::imaging {
@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<Spectrum>;
 
-/// Rows whose brightest pixel is in the middle, the brightest ones first, and only that share of them.
+/// The share of brightest rows, brightest first, rotated so that the brightest pixel is in the middle.
 Rows centredRows(const Rows& rows, double share) {
   const auto dimmer = [](const std::complex<double>& a, const std::complex<double>& b) {
     return std::norm(a) < std::norm(b);
@@ -32,7 +32,7 @@ Rows centredRows(const Rows& rows, double share) {
   return centred;
 }
 
-/// Where the power summed over the rows is within 10 dB of its peak, and half as much again [samples each side].
+/// Half width of the power summed over the rows at -10 dB of its peak, and half as much again [samples].
 std::size_t blurHalfWidth(const Rows& rows) {
   const std::size_t n = rows[0].size(), middle = n / 2;
   std::vector<double> power(n, 0.0);
@@ -44,7 +44,7 @@ std::size_t blurHalfWidth(const Rows& rows) {
   return std::min(middle, half + half / 2 + 2);
 }
 
-/// Spectra of the rows' middles, which are shifted to sample 0 so that a point without error has no phase slope.
+/// Spectra of the rows' middles, shifted to sample 0, where a point without error has no phase slope.
 void windowAndTransform(Rows& rows, std::size_t half, Fourier& fourier) {
   for (auto& row : rows) {
     const std::size_t middle = row.size() / 2;
@@ -55,7 +55,7 @@ void windowAndTransform(Rows& rows, std::size_t half, Fourier& fourier) {
   }
 }
 
-/// The bins that hold the aperture, counted from the gap, by their power: those within 15 dB of the strongest.
+/// The bins that hold the aperture, counted from the gap: from the first to the last within 15 dB of the strongest.
 std::vector<std::size_t> apertureBins(const Rows& spectra, std::size_t gap) {
   const std::size_t n = spectra[0].size();
   std::vector<double> power(n, 0.0);
@@ -70,7 +70,7 @@ std::vector<std::size_t> apertureBins(const Rows& spectra, std::size_t gap) {
   return bins;
 }
 
-/// Takes mean and trend off the phase at these bins.
+/// Removes mean and trend from the phase at these bins.
 void detrend(std::vector<double>& phase, const std::vector<std::size_t>& bins) {
   const auto count = static_cast<double>(bins.size());
   double mean = 0, slope = 0, squares = 0;
@@ -84,7 +84,7 @@ void detrend(std::vector<double>& phase, const std::vector<std::size_t>& bins) {
   for (const std::size_t k : bins) phase[k] -= mean + slope * (static_cast<double>(k) - middle);
 }
 
-/// The phase by summing the maximum-likelihood gradient, arg sum conj(G_k) G_{k+1} over the rows. [Wahl1994]
+/// Sums the maximum-likelihood gradient of the phase, arg sum conj(G_k) G_{k+1} over the rows. [Wahl1994]
 std::vector<double> commonPhase(const Rows& spectra, std::size_t gap, const std::vector<std::size_t>& bins) {
   const std::size_t n = spectra[0].size();
   std::vector<double> phase(n, 0.0);
@@ -104,7 +104,7 @@ double rootMeanSquare(const std::vector<double>& phase, const std::vector<std::s
   return std::sqrt(sum / static_cast<double>(bins.size()));
 }
 
-/// The gap of all rows together, so that it stays where it is from one iteration to the next.
+/// The gap of all rows together, which is the same in each iteration.
 std::size_t commonGap(Rows rows, Fourier& fourier) {
   Spectrum magnitudes(rows[0].size());
   for (auto& row : rows) {
@@ -115,7 +115,7 @@ std::size_t commonGap(Rows rows, Fourier& fourier) {
   return spectralGap(magnitudes);
 }
 
-void takeOff(Rows& rows, const std::vector<double>& phase, std::size_t gap, Fourier& fourier) {
+void removePhase(Rows& rows, const std::vector<double>& phase, std::size_t gap, Fourier& fourier) {
   const std::size_t n = rows[0].size();
   for (auto& row : rows) {
     fourier.forward(row);
@@ -139,7 +139,7 @@ Autofocus phaseGradientAutofocus(const Image& image, const AutofocusOptions& opt
     windowAndTransform(bright, blurHalfWidth(bright), fourier);
     const auto bins = apertureBins(bright, gap);
     const std::vector<double> phase = commonPhase(bright, gap, bins);
-    takeOff(rows, phase, gap, fourier);
+    removePhase(rows, phase, gap, fourier);
     for (std::size_t k = 0; k < columns; ++k) result.phase[k] += phase[k];
     ++result.iterations;
     result.converged = rootMeanSquare(phase, bins) < options.tolerance;

@@ -1,20 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "imaging/ping_pair.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "imaging/micronavigation_steps.hpp"
 #include "sas_motion/imaging/interpolator.hpp"
 
 namespace sas_motion::imaging {
-namespace {
-
-Eigen::Vector3d phaseCentre(const EchoPath& path) { return (path.transmitter + path.receiver) / 2; }
-
-}  // namespace
-
 PingPair::PingPair(const SonarDescription& sonar, const PingPose& first, const PingPose& second,
                    const MicronavigationOptions& options)
     : poses{first, second},
@@ -27,27 +20,27 @@ PingPair::PingPair(const SonarDescription& sonar, const PingPose& first, const P
   down = (forward.z() * forward - Eigen::Vector3d::UnitZ()).normalized();
   across = options.starboard ? Eigen::Vector3d(down.cross(forward)) : Eigen::Vector3d(forward.cross(down));
   origin.setZero();
-  for (const auto& path : paths) origin += phaseCentre(path) / static_cast<double>(paths.size());
+  for (const auto& path : paths) origin += path.phaseCentre() / static_cast<double>(paths.size());
 }
 
 Eigen::Vector3d PingPair::sight(double range, double along, double sine) const {
   const double cosine = std::sqrt(1 - sine * sine);
   const double height = origin.z() + (along + range * sine) * forward.z() - bottom;
-  const double depression =
-      std::clamp(height / (-down.z() * range * cosine), 0.0, 1.0);  // its sine, in the plane across the track
+  // sine of the depression angle in the plane across the track
+  const double depression = std::clamp(height / (-down.z() * range * cosine), 0.0, 1.0);
   return sine * forward + cosine * (std::sqrt(1 - depression * depression) * across + depression * down);
 }
 
 double PingPair::along(std::size_t channel, double range) const {
   const EchoPath& path = paths[channel];
-  return forward.dot(phaseCentre(path) + path.receiver_velocity * range / sound_speed - origin);
+  return forward.dot(path.phaseCentre() + path.receiver_velocity * range / sound_speed - origin);
 }
 
 Eigen::Vector3d PingPair::displacement(double range) const {
   const std::size_t receivers = paths.size() / 2;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < receivers; ++i)
-    sum += phaseCentre(paths[receivers + i]) - phaseCentre(paths[i]) +
+    sum += paths[receivers + i].phaseCentre() - paths[i].phaseCentre() +
            (paths[receivers + i].receiver_velocity - paths[i].receiver_velocity) * range / sound_speed;
   sum /= static_cast<double>(receivers);
   return {forward.dot(sum), across.dot(sum), down.dot(sum)};

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "imaging/oversampling.hpp"
+#include "imaging/fourier.hpp"
 
 namespace sas_motion::imaging {
 namespace {
@@ -15,7 +15,7 @@ struct Pixel {
   int row = 0, column = 0;
 };
 
-/// The brightest pixel around the true position.
+/// The brightest pixel within `radius` [m] of the true position.
 Pixel brightest(const Image& image, const Eigen::Vector3d& truth, double radius) {
   const ImageGrid& grid = image.grid;
   const Eigen::Vector3d way = truth - grid.origin;
@@ -34,7 +34,7 @@ double energy(const Spectrum& spectrum) {
                          [](double sum, const std::complex<double>& value) { return sum + std::norm(value); });
 }
 
-/// A square piece of the image and cuts through it between pixels.
+/// A square part of the image, with cuts through it between pixels.
 class Chip {
  public:
   Chip(const Image& image, Pixel first, int size)
@@ -47,9 +47,9 @@ class Chip {
       fourier.forward(columns_[i]);
     }
   }
-  /// Along range, at this column.
+  /// The cut along range at this column.
   Spectrum rangeCut(double column) const { return cut(rows_, column); }
-  /// Along track, at this row.
+  /// The cut along track at this row.
   Spectrum alongCut(double row) const { return cut(columns_, row); }
 
  private:

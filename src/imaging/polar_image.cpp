@@ -28,7 +28,7 @@ const std::vector<Taps>& tapTable() {
   return table;
 }
 
-/// Where a position lies among samples: the first tap's sample, and the taps.
+/// The first tap's sample and the taps for a position among samples.
 struct Place {
   int first = 0;
   const Taps* taps = nullptr;

@@ -11,16 +11,16 @@
 
 namespace sas_motion::imaging {
 
-/// Range r from an aperture's centre and s, the cosine of the angle to the track.
 struct PolarPoint {
-  double range = 0;   ///< [m]
-  double cosine = 0;  ///< [-]
+  double range = 0;   ///< from the aperture's centre [m]
+  double cosine = 0;  ///< of the angle to the track [-]
 };
 
-/// What one aperture sees of the grid's plane, relative to a path of 2 r: samples at equal steps of range and cosine.
+/// One aperture's image of the grid's plane, with phases relative to a path of twice the range, at equal steps of range
+/// and cosine.
 class PolarImage {
  public:
-  /// `margin` samples beyond the grid on each side of the range.
+  /// Adds `margin` samples of range on both sides of the grid.
   PolarImage(const ImageGrid& grid, const Eigen::Vector3d& centre, double range_step, double cosine_step, int margin);
 
   int ranges() const { return ranges_; }
@@ -34,9 +34,9 @@ class PolarImage {
   }
 
   PolarPoint seen(const Eigen::Vector3d& point) const;
-  /// The point of the plane; false where none is so near.
+  /// Gives the point of the plane; false where none is so near.
   bool place(const PolarPoint& polar, Eigen::Vector3d& point) const;
-  /// Between samples, by eight taps each way; zero outside.
+  /// Interpolates by eight taps in range and in cosine; zero outside.
   std::complex<float> between(const PolarPoint& polar) const;
 
  private:

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/imaging/range_compression.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 
-#include "sas_motion/imaging/chirp.hpp"
+#include "imaging/fourier.hpp"
+#include "sas_motion/imaging/sonar.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/parallel/threads.hpp"
 
@@ -17,7 +17,7 @@ double window(RangeWindow kind, double share_of_band) {  // -1/2 ... 1/2
   return kind == RangeWindow::Hamming ? 0.54 + 0.46 * std::cos(2 * kPi * share_of_band) : 1.0;
 }
 
-/// The spectrum to multiply with, scaled so that the peak of an echo is the scatterer's amplitude.
+/// The filter's spectrum, scaled so that the peak of an echo is the scatterer's amplitude.
 Spectrum filterSpectrum(const SonarDescription& sonar, std::size_t length, const CompressionOptions& options) {
   Spectrum pulse = chirp(sonar);
   pulse.resize(length);
@@ -36,24 +36,17 @@ Spectrum filterSpectrum(const SonarDescription& sonar, std::size_t length, const
   return filter;
 }
 
-bool isFinite(const std::complex<float>& value) { return std::isfinite(value.real()) && std::isfinite(value.imag()); }
-
 }  // namespace
 
 EchoLines compressRange(const EchoLines& raw, const SonarDescription& sonar, const CompressionOptions& options) {
-  EchoLines compressed;
-  compressed.carrier = raw.carrier;
-  compressed.sound_speed = raw.sound_speed;
-  compressed.sample_rate = raw.sample_rate;
-  compressed.first_delay = raw.first_delay;
-  compressed.paths = raw.paths;
-  compressed.samples = raw.samples - static_cast<int>(chirp(sonar).size()) + 1;
+  const int samples = raw.samples - static_cast<int>(chirp(sonar).size()) + 1;
+  EchoLines compressed{raw.carrier, raw.sound_speed, raw.sample_rate, raw.first_delay, samples, 0, raw.paths};
   compressed.data.assign(raw.paths.size() * static_cast<std::size_t>(compressed.samples), {});
   const std::size_t length = fastLength(static_cast<std::size_t>(raw.samples));
   const Spectrum filter = filterSpectrum(sonar, length, options);
   std::atomic<std::size_t> left_out{0};
   forEachTask(raw.paths.size(), options.threads, [&](std::size_t i) {
-    if (!std::all_of(raw.line(i), raw.line(i) + raw.samples, isFinite)) {
+    if (!raw.finite(i, 1)) {
       ++left_out;
       return;
     }

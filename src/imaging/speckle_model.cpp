@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "imaging/speckle_model.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "imaging/micronavigation_steps.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace sas_motion::imaging {
@@ -18,11 +17,11 @@ constexpr double kMostCoherence = 0.99;  // what interpolation and the model lea
 constexpr int kMaxIterations = 20;
 constexpr double kTolerance = 0.02;  // of the last step, in standard deviations
 
-/// A stretch of range: the channels' sample covariance and where they were.
+/// A stretch of range: the channels' sample covariance and geometry.
 struct Block {
   Covariance sample;
   Eigen::VectorXd along, sine, curvature;  // of each channel: place [m], middle of its beam, of its path [m]
-  double across, down, arm;                // of the sight, and what a turn acts from [m]
+  double across, down, arm;                // of the sight; arm: the place that a turn is about [m]
 };
 
 std::vector<Block> blocks(const AlignedLines& lines, const PingPair& pair, double spread) {
@@ -32,13 +31,8 @@ std::vector<Block> blocks(const AlignedLines& lines, const PingPair& pair, doubl
     const double range = lines.range(begin + 0.5 * (kBlock - 1));
     const Eigen::Vector3d sight = pair.sight(range, 0);
     Eigen::MatrixXcd samples(channels, kBlock);
-    Block block{{},
-                Eigen::VectorXd(channels),
-                Eigen::VectorXd(channels),
-                Eigen::VectorXd(channels),
-                sight.dot(pair.across),
-                sight.dot(pair.down),
-                0};
+    const Eigen::VectorXd each = Eigen::VectorXd::Zero(channels);
+    Block block{{}, each, each, each, sight.dot(pair.across), sight.dot(pair.down), 0};
     for (Eigen::Index a = 0; a < channels; ++a) {
       const auto channel = static_cast<std::size_t>(a);
       const PingPair::PathShape shape = pair.shape(channel, range, spread);
@@ -58,14 +52,13 @@ class SpeckleModel {
  public:
   SpeckleModel(const BeamCoherence& beam, double wavelength) : beam_(beam), wave_number_(2 * kPi / wavelength) {}
 
-  /// Of the channels, with power 1. An echo of the second ping from further along the sight than believed is early, and
-  /// the believed path turns it too far.
+  /// The channels' covariance at power 1. Where the second ping is further along the sight than predicted, its echo is
+  /// early and alignment by the predicted path turns its phase too far.
   Covariance covariance(const Block& block, const SpeckleParameters& p) const {
     const Eigen::Index channels = block.along.size(), receivers = channels / 2;
     Eigen::VectorXd along = block.along, sine = block.sine, slant = Eigen::VectorXd::Zero(channels);
     along.tail(receivers).array() += p(kAlong);
-    sine.tail(receivers).array() -=
-        p(kTurn);  // the beam turns with the array, so that a ping alone tells nothing of its turn
+    sine.tail(receivers).array() -= p(kTurn);  // the beam turns with the array: one ping alone does not observe a turn
     slant.tail(receivers) = (block.along.tail(receivers).array() - block.arm) * p(kTurn) + block.across * p(kAcross) +
                             block.down * p(kDown);
     Covariance S = Covariance::Identity(channels, channels);
@@ -96,7 +89,7 @@ class SpeckleModel {
 
 double traceOfProduct(const Covariance& a, const Covariance& b) { return a.cwiseProduct(b.transpose()).sum().real(); }
 
-/// Adds a block's score and Fisher information, its power taken as unknown.
+/// Adds a block's score and Fisher information for unknown power.
 void accumulate(const SpeckleModel& model, const Block& block, double cells, const SpeckleParameters& p,
                 SpeckleParameters& score, Eigen::MatrixXd& information) {
   const Eigen::Index channels = block.along.size();

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/track_window.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "sas_motion/imaging/trajectory.hpp"
 
 namespace sas_motion::imaging {
 namespace {
@@ -14,7 +14,7 @@ struct Stretch {
   double length = 0, bend = 0;  // bend: RMS of the distance from the line, over the length
 };
 
-/// The horizontal track between two poses against its line, the principal axis of its points.
+/// The horizontal track between two poses and its distance from the principal axis of its points.
 Stretch stretchBetween(const std::vector<TimedPose>& poses, std::size_t first, std::size_t last) {
   const auto count = static_cast<double>(last - first + 1);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();

@@ -16,8 +16,7 @@ bool isEarlier(const TimedPose& a, const TimedPose& b) { return a.stamp < b.stam
 Trajectory::Trajectory(std::vector<TimedPose> poses) : poses_(std::move(poses)) {
   std::stable_sort(poses_.begin(), poses_.end(), isEarlier);
   const auto same = [](const TimedPose& a, const TimedPose& b) { return a.stamp == b.stamp; };
-  poses_.erase(poses_.begin(),
-               std::unique(poses_.rbegin(), poses_.rend(), same).base());  // from behind, so that the last one stays
+  poses_.erase(poses_.begin(), std::unique(poses_.rbegin(), poses_.rend(), same).base());  // keeps the last of equals
 }
 
 std::optional<TimedPose> Trajectory::at(Stamp stamp) const {

@@ -12,7 +12,7 @@ namespace {
 constexpr int kMostSteps = 20;
 constexpr double kSettled = 1e-5;  // [m]
 
-/// From the middle of the pings to the target.
+/// From the mean position of the pings to the target.
 Eigen::Vector3d wayTo(const std::vector<PingPose>& poses, const Eigen::Vector3d& target) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& pose : poses) middle += pose.position / static_cast<double>(poses.size());
@@ -23,16 +23,15 @@ double trackSpeed(const std::vector<double>& times, const std::vector<PingPose>&
   return (poses.back().position - poses.front().position).head<2>().norm() / (times.back() - times.front());
 }
 
-/// Where mean and trend move the image, for small ones: the mean moves it as a whole, a trend in the line of sight
-/// turns the track and so moves it along, by the slope times range over speed.
+/// First guess of the image's shift: the means move it, and a slope in the line of sight turns the track, which moves
+/// the image along by slope times range over speed.
 Eigen::Vector3d imageShift(const Trend& along, const Trend& line_of_sight, double speed, const Eigen::Vector3d& way) {
   const double range = way.norm(), ground = way.head<2>().norm();
   const double outwards = -line_of_sight.mean * range / ground;
   return {along.mean + line_of_sight.slope * range / speed, std::copysign(1.0, way.y()) * outwards, 0};
 }
 
-/// The place in the plane of the bottom whose estimated paths fit the true ones by the target best, by Gauss and Newton
-/// from the first guess.
+/// The place in the plane of the bottom whose estimated paths fit the target's true ones best, by Gauss-Newton.
 Eigen::Vector3d bestFit(const std::vector<EchoPath>& truth, const std::vector<EchoPath>& estimate,
                         const Eigen::Vector3d& target, const Eigen::Vector3d& guess, double sound_speed) {
   Eigen::Vector3d place = guess;
@@ -54,7 +53,7 @@ Eigen::Vector3d bestFit(const std::vector<EchoPath>& truth, const std::vector<Ec
   return place.allFinite() ? place : guess;
 }
 
-/// Over all receivers of all pings.
+/// The trend over all receivers of all pings.
 Trend pathError(const std::vector<double>& times, const std::vector<EchoPath>& truth,
                 const std::vector<EchoPath>& estimate, const Eigen::Vector3d& target, const Eigen::Vector3d& image,
                 double sound_speed) {

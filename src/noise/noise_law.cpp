@@ -16,7 +16,7 @@ struct Parameter {
   double NoiseLaw::*value;
   Range range;
   const char* unit = "";
-  bool named = true;  ///< whether the name tells it even at its default
+  bool named = true;  ///< whether the law's name contains it even at its default
 };
 
 /// How one law is written in a file.
@@ -35,6 +35,12 @@ const std::vector<Form>& forms() {
   static const Parameter epoch{"epoch", &NoiseLaw::epoch, {0, 1e6}, " s", false},
       probability{"probability", &NoiseLaw::probability, {0, 1}};
   static const Parameter t0{"t0", &NoiseLaw::t0, {0, 1e7}, " s"}, t1{"t1", &NoiseLaw::t1, {0, 1e7}, " s", false};
+  static const Parameter time_constant{"time_constant", &NoiseLaw::time_constant, {kTiny, 1e7}, " s"},
+      period{"period", &NoiseLaw::period, {kTiny, 1e7}, " s"};
+  const auto unnamed = [](Parameter parameter) {
+    parameter.named = false;
+    return parameter;
+  };
   static const std::vector<Form> all{
       {Kind::Gaussian, "gaussian", true, true, {}},
       {Kind::Contaminated, "contaminated", true, false, {epsilon, size}},
@@ -44,24 +50,10 @@ const std::vector<Form>& forms() {
       {Kind::Step, "step", true, false, {{"bias", &NoiseLaw::bias, {-1e6, 1e6}}, t0, t1}},
       {Kind::Ramp, "ramp", true, false, {{"slope", &NoiseLaw::slope, {-1e6, 1e6}, "/s"}, t0, t1}},
       {Kind::Frozen, "frozen", true, false, {rate, length}},
-      {Kind::Dropout,
-       "dropout",
-       true,
-       false,
-       {{"rate", &NoiseLaw::rate, {0, 1e3}, "/s", false},
-        {"length", &NoiseLaw::length, {0, 1e6}, " s", false},
-        {"probability", &NoiseLaw::probability, {0, 1}, "", false}}},
+      {Kind::Dropout, "dropout", true, false, {unnamed(rate), unnamed(length), unnamed(probability)}},
       {Kind::Multipath, "multipath", true, false, {probability, {"mean", &NoiseLaw::mean, {kTiny, 1e6}}}},
-      {Kind::Correlated,
-       "correlated",
-       true,
-       false,
-       {{"time_constant", &NoiseLaw::time_constant, {kTiny, 1e7}, " s"}, {"share", &NoiseLaw::share, {0, 0.999}}}},
-      {Kind::Varying,
-       "varying",
-       true,
-       false,
-       {{"period", &NoiseLaw::period, {kTiny, 1e7}, " s"}, {"factor", &NoiseLaw::factor, {kTiny, 1e6}}}},
+      {Kind::Correlated, "correlated", true, false, {time_constant, {"share", &NoiseLaw::share, {0, 0.999}}}},
+      {Kind::Varying, "varying", true, false, {period, {"factor", &NoiseLaw::factor, {kTiny, 1e6}}}},
       {Kind::Quantised, "quantised", true, false, {{"quantum", &NoiseLaw::quantum, {0, 1e6}}}},
       {Kind::Manoeuvre, "manoeuvre", false, true, {rate, length, size}},
   };

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sas_motion/noise/noise_source.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "sas_motion/math/angles.hpp"
 
@@ -26,8 +29,7 @@ void shift(NoiseSample& sample, double bias) {
 }  // namespace
 
 bool Spells::on(const NoiseLaw& law, double time, double elapsed, double dice) {
-  const bool was_on = on_;
-  if (!was_on && dice < -std::expm1(-law.rate * elapsed)) until_ = time + law.length;
+  if (!on_ && dice < -std::expm1(-law.rate * elapsed)) until_ = time + law.length;
   return on_ = time < until_;
 }
 
@@ -49,8 +51,7 @@ NoiseSource::NoiseSource(const NoiseMix& mix, std::uint64_t seed, std::uint64_t 
 NoiseSample NoiseSource::draw(double time) {
   NoiseSample sample;
   sample.value = random_.gaussian();
-  const double dice = random_.uniform();  // the first law's; it stays in this stream, so that one law alone gives the
-                                          // numbers it always gave
+  const double dice = random_.uniform();  // of the first law: a law alone must keep its numbers
   const double elapsed = time - last_time_;
   last_time_ = time;
   for (auto& part : parts_) part.apply(sample, time, elapsed, &part == &parts_.front() ? dice : part.random.uniform());
@@ -104,6 +105,40 @@ void NoiseSource::Part::apply(NoiseSample& sample, double time, double elapsed, 
       sample.variance += law.quantum * law.quantum / 12;
       return;
   }
+}
+
+ProcessNoise::ProcessNoise(const NoiseMix& mix, int states, std::uint64_t seed, std::uint64_t stream) {
+  if (states > kMostStates)
+    throw std::invalid_argument(fmt::format("ProcessNoise: states is {} but must be at most {}", states, kMostStates));
+  NoiseMix own;
+  for (const auto& law : mix.laws)
+    if (law.kind == NoiseLaw::Kind::Manoeuvre || law.epoch > 0)
+      common_.push_back({law, Random(seed, stream + 50 + common_.size()), {}, -1, false});
+    else
+      own.laws.push_back(law);
+  for (int i = 0; i < states; ++i) states_.emplace_back(own, seed, stream + static_cast<std::uint64_t>(i));
+}
+
+bool ProcessNoise::Common::on(double time, double elapsed) {
+  if (law.kind == NoiseLaw::Kind::Manoeuvre) return spells.on(law, time, elapsed, random.uniform());
+  const long now = std::lround(std::ceil(time / law.epoch - 1e-9)) - 1;  // epoch k is the time (k, k + 1] `epoch`
+  for (; epoch < now; ++epoch) large = random.bernoulli(law.epsilon);
+  return large;
+}
+
+ProcessNoise::Draw ProcessNoise::draw(double time) {
+  double sigma = 1;
+  for (auto& common : common_)
+    if (common.on(time, time - last_time_)) sigma *= common.law.K;
+  last_time_ = time;
+  const auto states = static_cast<Eigen::Index>(states_.size());
+  Draw draw{Values(states), Values(states)};
+  for (Eigen::Index i = 0; i < states; ++i) {
+    const NoiseSample sample = states_[static_cast<std::size_t>(i)].draw(time);
+    draw.value(i) = sigma * sample.value;
+    draw.variance(i) = sigma * sigma * sample.variance;
+  }
+  return draw;
 }
 
 }  // namespace sas_motion

@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "sas_motion/imaging/focus_config.hpp"
+#include "sas_motion/imaging/focus_scene.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "tools/focus_document.hpp"
 #include "tools/focus_window.hpp"

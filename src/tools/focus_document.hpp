@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sas_motion/imaging/focus_result.hpp"
+#include "sas_motion/imaging/focus_bench.hpp"
 
 namespace sas_motion {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sas_motion/imaging/focus_result.hpp"
+#include "sas_motion/imaging/focus_bench.hpp"
 #include "tools/focus_input.hpp"
 
 namespace sas_motion {

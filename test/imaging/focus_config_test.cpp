@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/focus_config.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <fstream>
 
 #include "sas_motion/config/yaml_section.hpp"
+#include "sas_motion/imaging/focus_scene.hpp"
 
 namespace sas_motion::imaging {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/image_file.hpp"
-
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "imaging/imaging_support.hpp"
+#include "sas_motion/imaging/image.hpp"
 
 namespace sas_motion::imaging::testing {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "imaging/fourier.hpp"
 #include "imaging/imaging_support.hpp"
-#include "sas_motion/imaging/fourier.hpp"
 
 namespace sas_motion::imaging::testing {
 namespace {

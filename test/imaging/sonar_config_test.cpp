@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/sonar_config.hpp"
-
 #include <gtest/gtest.h>
+
+#include "sas_motion/imaging/sonar.hpp"
 
 namespace sas_motion::imaging {
 namespace {

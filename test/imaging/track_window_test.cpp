@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/track_window.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "sas_motion/imaging/trajectory.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace sas_motion::imaging {

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/noise/process_noise.hpp"
-
 #include <cmath>
 
+#include "sas_motion/noise/noise_source.hpp"
 #include "support.hpp"
 
 namespace sas_motion {

@@ -12,8 +12,8 @@ struct StraightTrack {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< horizontal unit vector of travel
 };
 
-/// The least-squares line through the lines' phase centres, the middles between transmitter and receiver, at their mean
-/// height. Throws std::invalid_argument for fewer than two lines or a track without length.
+/// The least-squares line through the lines' phase centres, at their mean height. Throws std::invalid_argument for
+/// fewer than two lines or a track without length.
 StraightTrack fitTrack(const EchoLines& lines);
 
 struct CompensationOptions {
@@ -23,12 +23,11 @@ struct CompensationOptions {
 };
 
 /// The paper's compensation of line-of-sight errors, (9)-(12) of paper C and its part C.5: with the sway dx away from
-/// the bottom looked at and the heave dz off the ideal track, a target at slant range r and height h below is too far
-/// by dr = (x/r) dx + (h/r) dz, x = sqrt(r^2 - h^2). Each range bin is multiplied by exp(+j 4 pi f0 dr / c) and, where
-/// dr exceeds a quarter of a range bin c/4B, shifted by dr. The paths of the result are on the ideal track, transmitter
-/// and receiver in one place, where the true phase centres were along it. Without stop and hop dx and dz grow, by half
-/// the receiver's velocity, until the echo is in. Exact at broadside only: compare backproject() on the true paths.
-/// `bandwidth` is that of the chirp [Hz].
+/// the target and the heave dz off the ideal track, a target at slant range r and height h below is too far by
+/// dr = (x/r) dx + (h/r) dz, x = sqrt(r^2 - h^2). Each range bin is multiplied by exp(+j 4 pi f0 dr / c) and, where dr
+/// exceeds a quarter of a range bin c/4B, shifted by dr. The resulting paths are monostatic, at the phase centres'
+/// places along the ideal track. Without stop and hop, dx and dz grow by half the receiver's velocity until the echo
+/// arrives. Exact at broadside only, unlike backproject() on the true paths. `bandwidth` is that of the chirp [Hz].
 EchoLines compensateMotion(const EchoLines& lines, const StraightTrack& track, double bandwidth,
                            const CompensationOptions& options);
 

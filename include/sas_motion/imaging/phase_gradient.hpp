@@ -11,20 +11,19 @@ namespace sas_motion::imaging {
 struct AutofocusOptions {
   int max_iterations = 10;
   double tolerance = 0.02;       ///< stops when an iteration's phase has less RMS than this [rad]
-  double strongest_share = 0.5;  ///< the share of rows with the brightest peaks that is used
+  double strongest_share = 0.5;  ///< share of the rows that is used: those with the brightest peaks
 };
 
 struct Autofocus {
-  Image image;  ///< focused
-  std::vector<double>
-      phase;  ///< taken off each bin of the along-track spectrum, from the gap upwards, without mean and trend [rad]
+  Image image;                ///< focused
+  std::vector<double> phase;  ///< removed from each bin of the along-track spectrum, from the gap upwards [rad]
   int iterations = 0;
   bool converged = false;
 };
 
-/// Phase gradient autofocus [Wahl1994]: the phase error common to all rows, over the along-track wave number, which is
-/// the place in the aperture. For patches that all of the aperture saw and that are short against it. A mean and a
-/// trend of phase move the image and cannot be found.
+/// Phase gradient autofocus [Wahl1994]: removes the phase error common to all rows over the along-track wave number,
+/// which stands for the place in the aperture. Needs a patch that the whole aperture sees and that is short against it.
+/// Mean and trend of the phase only move the image and are not estimated.
 Autofocus phaseGradientAutofocus(const Image& image, const AutofocusOptions& options);
 
 }  // namespace sas_motion::imaging

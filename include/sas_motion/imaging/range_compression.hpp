@@ -7,7 +7,7 @@
 namespace sas_motion::imaging {
 
 enum class RangeFilter {
-  Matched,    ///< the chirp's conjugate: the best against noise
+  Matched,    ///< the chirp's conjugate: the highest ratio of signal to noise
   Equalized,  ///< flat over the band: a sinc without the chirp's Fresnel ripple
 };
 enum class RangeWindow { Rectangular, Hamming };
@@ -18,8 +18,8 @@ struct CompressionOptions {
   int threads = 1;
 };
 
-/// Raw echoes to range-compressed ones, where a scatterer's amplitude is that of its peak. Phases and delays stay;
-/// lines lose the length of a pulse. A line in which an echo is not finite becomes zero and is counted.
+/// Compresses raw echoes in range; a peak has its scatterer's amplitude, phases and delays stay, and lines become a
+/// pulse shorter. A line with a sample that is not finite becomes zero and counts as left out.
 EchoLines compressRange(const EchoLines& raw, const SonarDescription& sonar, const CompressionOptions& options);
 
 }  // namespace sas_motion::imaging

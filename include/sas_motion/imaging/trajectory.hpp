@@ -6,37 +6,35 @@
 #include <optional>
 #include <vector>
 
-#include "sas_motion/imaging/echo_path.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/math/stamp.hpp"
 
 namespace sas_motion::imaging {
 
-/// Where the body was, in a local frame with z up; body x forward, y to port, z up.
+/// A pose of the body in a local frame with z up; body x forward, y to port, z up.
 struct TimedPose {
   Stamp stamp = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Quaterniond q_local_body = Eigen::Quaterniond::Identity();
 };
 
-/// A stretch of time.
 struct Gap {
   Stamp begin = 0, end = 0;
 };
 
-/// Poses over time, and what lies between them.
+/// Poses over time, interpolated between their stamps.
 class Trajectory {
  public:
   Trajectory() = default;
-  /// Poses in any order; of those with one stamp the last counts.
+  /// Takes poses in any order; the last of those with one stamp counts.
   explicit Trajectory(std::vector<TimedPose> poses);
 
   /// In order of time.
   const std::vector<TimedPose>& poses() const { return poses_; }
-  /// Between two poses the position moves straight and the attitude by the shortest rotation, both evenly. Nothing
-  /// before the first pose and after the last.
+  /// Interpolates position linearly and attitude by slerp. Nothing before the first pose and after the last.
   std::optional<TimedPose> at(Stamp stamp) const;
-  /// The first stretch of [begin, end] without poses that is longer than this [s], or that lies before the first pose
-  /// or after the last, whatever its length.
+  /// The first part of [begin, end] without poses that is longer than `longest` [s], or that lies before the first pose
+  /// or after the last.
   std::optional<Gap> firstGap(Stamp begin, Stamp end, double longest) const;
 
  private:
@@ -46,9 +44,33 @@ class Trajectory {
 /// The times of pings at this rate [Hz] over this duration [s].
 std::vector<Stamp> pingStamps(Stamp begin, double duration, double ping_rate);
 
-/// The sonar at each ping. Its velocity is the mean one until `interval` [s] later: the stretch in which the echo comes
-/// in, so that two estimates of almost one stamp do not give a leap for a speed. Throws std::invalid_argument where the
-/// trajectory does not reach from the first ping to an interval after the last.
+/// The sonar's pose at each ping, with the mean velocity until `interval` [s] later, in which the echo arrives. Throws
+/// std::invalid_argument where the trajectory does not reach from the first ping to an interval after the last.
 std::vector<PingPose> pingPoses(const Trajectory& trajectory, const std::vector<Stamp>& pings, double interval);
+
+/// Begin of the window of this duration [s] with the straightest track: with the least RMS distance from the
+/// least-squares line over the length, among windows at least half as long as the longest. Nothing where every window
+/// has a gap longer than `longest_gap` [s].
+std::optional<Stamp> straightestWindow(const Trajectory& trajectory, double duration, double longest_gap);
+
+/// Mean speed over ground along the path [m/s]; 0 for fewer than two poses.
+double meanSpeed(const Trajectory& trajectory);
+
+/// The local frame of one aperture: origin on the flat bottom under the middle of the track; x along the mean heading
+/// (not the course, so that the beams look along y in a current), y to port, z up.
+struct ApertureFrame {
+  Eigen::Vector3d origin_map = Eigen::Vector3d::Zero();  ///< [m]
+  double yaw = 0;                                        ///< mean of the body, counter-clockwise from the map's x [rad]
+
+  PingPose fromMap(const PingPose& pose_map) const;
+};
+
+/// The frame of pings that are `altitude` [m] above the bottom on average. Throws std::invalid_argument without pings.
+ApertureFrame apertureFrame(const std::vector<PingPose>& poses_map, double altitude);
+
+/// Poses of any trajectory in this frame, with heights shifted so that they are `altitude` [m] above the bottom on
+/// average: a sonar measures its altitude, so a constant error of height does not move its image.
+std::vector<PingPose> aperturePoses(const std::vector<PingPose>& poses_map, const ApertureFrame& frame,
+                                    double altitude);
 
 }  // namespace sas_motion::imaging

@@ -10,46 +10,36 @@
 
 namespace sas_motion {
 
-/// Whose noise a law is for: not every law makes sense for both.
+/// The use of a noise law; not every law makes sense for both.
 enum class NoiseUse { Sensor, Process };
 
-/// How noise is distributed, by name; sizes are in units of the good standard deviation, times in seconds since the
-/// start.
+/// A named distribution of noise; sizes are in units of the good standard deviation, times in seconds since the start.
 ///   gaussian       N(0, 1)
 ///   contaminated   (1 - epsilon) N(0, 1) + epsilon N(0, K^2), the paper's mixed normal [Zhu2007]
 ///   student_t      Student's t of nu degrees of freedom
-///   burst          now and then (rate a second) for `length` seconds a bias of K
+///   burst          a bias of K during spells (`rate` a second, of `length` seconds)
 ///   step           a bias from t0 to t1
-///   ramp           a bias that grows by `slope` a second from t0 to t1, then is gone
-///   frozen         now and then for `length` seconds the last measurement again
-///   dropout        no measurement: now and then for `length` seconds, or each with its probability
-///   multipath      each with its probability longer by an exponential of this mean
+///   ramp           a bias that grows by `slope` a second from t0 to t1 and then ends
+///   frozen         the last measurement again during spells
+///   dropout        no measurement during spells, or for each measurement with `probability`
+///   multipath      an added exponential of this mean, with `probability`
 ///   correlated     a share of the variance is a Gauss-Markov process
 ///   varying        the standard deviation swings between 1 and factor
 ///   quantised      the measurement is rounded to multiples of the quantum
-///   manoeuvre      of the process: now and then for `length` seconds, all its noise K times larger
+///   manoeuvre      of the process: all its noise is K times larger during spells
 struct NoiseLaw {
+  // clang-format off
   enum class Kind {
-    Gaussian,
-    Contaminated,
-    Burst,
-    StudentT,
-    Step,
-    Ramp,
-    Frozen,
-    Dropout,
-    Multipath,
-    Correlated,
-    Varying,
-    Quantised,
+    Gaussian, Contaminated, Burst, StudentT, Step, Ramp, Frozen, Dropout, Multipath, Correlated, Varying, Quantised,
     Manoeuvre
   };
+  // clang-format on
   Kind kind = Kind::Gaussian;
   double epsilon = 0;  ///< share of outliers [-]
   double K = 1;        ///< their size, or a burst's [-]
   double rate = 0;     ///< spells a second [1/s]
   double length = 0;   ///< of a spell [s]
-  double epoch = 0;    ///< contaminated process: one draw for all states holds this long; 0: one a state and step [s]
+  double epoch = 0;    ///< of one draw for all states of a contaminated process; 0: a draw each state and step [s]
   double nu = 4;       ///< degrees of freedom [-]
   double bias = 0;     ///< [-]
   double slope = 0;    ///< [1/s]
@@ -64,11 +54,11 @@ struct NoiseLaw {
   double quantum = 0;                                   ///< [-]
 
   static NoiseLaw read(YamlSection yaml, NoiseUse use = NoiseUse::Sensor);
-  /// gaussian, or e.g. contaminated(0.1,10): a name for tables.
+  /// A name for tables: gaussian, or e.g. contaminated(0.1,10).
   std::string name() const;
 };
 
-/// Laws applied one after the other, each to what the ones before it made; none is gaussian.
+/// Laws that are applied one after the other; no law means gaussian.
 struct NoiseMix {
   std::vector<NoiseLaw> laws;
 
@@ -76,7 +66,7 @@ struct NoiseMix {
   NoiseMix(const NoiseLaw& law) : laws{law} {}  // a law alone is a mix
   NoiseMix(std::vector<NoiseLaw> all) : laws(std::move(all)) {}
 
-  /// What `key` holds: a law, a list of laws, or nothing.
+  /// Reads a law, a list of laws, or nothing under `key`.
   static NoiseMix read(YamlSection& owner, const std::string& key, NoiseUse use = NoiseUse::Sensor);
   std::string name() const;
 };

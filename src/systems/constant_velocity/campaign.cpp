@@ -11,7 +11,7 @@
 #include "sas_motion/filters/filter_by_name.hpp"
 #include "sas_motion/filters/gaussian_sum_filter.hpp"
 #include "sas_motion/io/cpu_time.hpp"
-#include "sas_motion/noise/process_noise.hpp"
+#include "sas_motion/noise/noise_source.hpp"
 #include "sas_motion/systems/constant_velocity/model.hpp"
 
 namespace sas_motion::constant_velocity {

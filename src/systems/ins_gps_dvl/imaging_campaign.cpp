@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "campaign/imaging_measures.hpp"
-#include "sas_motion/imaging/focus_config.hpp"
+#include "sas_motion/imaging/focus_scene.hpp"
 #include "systems/ins_gps_dvl/campaign.hpp"
 #include "systems/ins_gps_dvl/imaging_survey.hpp"
 #include "systems/ins_gps_dvl/run_scorer.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sas_motion/imaging/focus_scene.hpp"
-#include "sas_motion/imaging/track_window.hpp"
+#include "sas_motion/imaging/trajectory.hpp"
 #include "sas_motion/navigation/local_frame.hpp"
 #include "sas_motion/systems/ins_gps_dvl/estimator.hpp"
 #include "sas_motion/systems/ins_gps_dvl/imaging_bridge.hpp"

@@ -4,7 +4,7 @@
 
 #include "campaign/suites.hpp"
 #include "sas_motion/imaging/focus_bench.hpp"
-#include "sas_motion/imaging/focus_config.hpp"
+#include "sas_motion/imaging/focus_scene.hpp"
 #include "sas_motion/imaging/trajectory.hpp"
 
 namespace sas_motion {

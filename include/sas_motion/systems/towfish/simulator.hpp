@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sas_motion/noise/noise_source.hpp"
-#include "sas_motion/noise/process_noise.hpp"
 #include "sas_motion/systems/towfish/scenario.hpp"
 
 namespace sas_motion::towfish {

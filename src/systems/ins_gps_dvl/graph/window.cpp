@@ -8,7 +8,6 @@
 #include <gtsam/nonlinear/LinearContainerFactor.h>
 #include <gtsam/nonlinear/PriorFactor.h>
 
-#include "graph/guarded.hpp"
 #include "graph/levenberg_marquardt.hpp"
 #include "sas_motion/filters/update.hpp"
 

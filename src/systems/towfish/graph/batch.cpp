@@ -6,7 +6,6 @@
 #include <gtsam/nonlinear/LevenbergMarquardtOptimizer.h>
 #include <gtsam/nonlinear/Marginals.h>
 
-#include "graph/guarded.hpp"
 #include "graph/levenberg_marquardt.hpp"
 #include "systems/towfish/graph/factors.hpp"
 

@@ -8,7 +8,6 @@
 #include <gtsam/nonlinear/Marginals.h>
 #include <gtsam/nonlinear/PriorFactor.h>
 
-#include "graph/guarded.hpp"
 #include "graph/levenberg_marquardt.hpp"
 #include "systems/usbl/graph/factors.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "imaging/oversampling.hpp"
+#include "imaging/fourier.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/echo_path.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sas_motion/imaging/interpolator.hpp"
@@ -30,6 +31,12 @@ double pathLength(const EchoPath& path, const Eigen::Vector3d& point, double sou
   // |back - mach L| = L - out, with L the whole path: a quadratic in L
   const double a = 1 - mach.squaredNorm(), b = out - back.dot(mach), c = out * out - back.squaredNorm();
   return (b + std::sqrt(b * b - a * c)) / a;
+}
+
+bool EchoLines::finite(std::size_t first, std::size_t count) const {
+  return std::all_of(line(first), line(first + count), [](const std::complex<float>& value) {
+    return std::isfinite(value.real()) && std::isfinite(value.imag());
+  });
 }
 
 double beamAmplitude(const EchoPath& path, const Eigen::Vector3d& point, const SonarDescription& sonar) {

@@ -10,7 +10,7 @@ namespace sas_motion::imaging {
 
 using Spectrum = std::vector<std::complex<double>>;
 
-/// The next length of at least n with factors 2, 3 and 5 only.
+/// The smallest length of at least n with factors 2, 3 and 5 only.
 inline std::size_t fastLength(std::size_t n) {
   for (;; ++n) {
     std::size_t rest = n;
@@ -46,5 +46,14 @@ class Fourier {
   kissfft<double> forward_, inverse_;
   Spectrum scratch_;
 };
+
+/// The bin in the middle of a spectrum's gap: opposite to the circular centre of its energy.
+std::size_t spectralGap(const Spectrum& spectrum);
+
+/// A periodic line `factor` times as dense, by zeros in the gap of its spectrum; the carrier is removed.
+Spectrum oversample(const Spectrum& line, int factor);
+
+/// A periodic line at this position [samples]; the carrier is removed. Lines that are compared need the same gap.
+std::complex<double> valueAt(const Spectrum& spectrum, std::size_t gap, double position);
 
 }  // namespace sas_motion::imaging
