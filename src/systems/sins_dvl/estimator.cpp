@@ -46,16 +46,9 @@ const NamedFilter* findFilter(const std::string& name) {
 }
 
 Config startedAt(Config config, const ins::Config& other) {
-  const ins::Parameters& found = other.parameters;
   config.filters = other.filters;
   config.fixed_lag = other.fixed_lag;
-  Parameters& p = config.parameters;
-  p.start_position = found.start_position;
-  p.start_velocity = found.start_velocity;
-  p.start_tilt = found.start_tilt;
-  p.start_heading = found.start_heading;
-  p.dvl_lever_body = found.dvl_lever_body;
-  p.depth_lever_body = found.depth_lever_body;
+  static_cast<ins::StartAndMounting&>(config.parameters) = other.parameters;
   return config;
 }
 

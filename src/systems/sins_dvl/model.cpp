@@ -60,13 +60,8 @@ ins::Parameters inSmallAngles(const Parameters& p) {
   q.dvl_white = p.dvl_white;
   q.dvl_scale = p.dvl_scale;
   q.depth_white = p.depth_white;
-  q.dvl_lever_body = p.dvl_lever_body;
   q.dvl_lever_sigma = p.dvl_lever_sigma;
-  q.depth_lever_body = p.depth_lever_body;
-  q.start_position = p.start_position;
-  q.start_velocity = p.start_velocity;
-  q.start_tilt = p.start_tilt;
-  q.start_heading = p.start_heading;
+  static_cast<ins::StartAndMounting&>(q) = p;
   return q;
 }
 

@@ -41,8 +41,18 @@ struct DvlDrift {
   double angle_time = 600;          ///< correlation time [s]
 };
 
+/// How well the start is known, and where the sensors that every system with an INS has sit from it.
+struct StartAndMounting {
+  Vector<3> start_position{2, 2, 2};               ///< [m]
+  double start_velocity = 0.05;                    ///< [m/s]
+  double start_tilt = 0.01 * kRadPerDeg;           ///< [rad]
+  double start_heading = 0.1 * kRadPerDeg;         ///< [rad]
+  Vector<3> dvl_lever_body = Vector<3>::Zero();    ///< [m]
+  Vector<3> depth_lever_body = Vector<3>::Zero();  ///< [m]
+};
+
 /// How wrong the sensors are: constants, first-order Markov processes and white noise. (C.4), its defaults.
-struct Parameters {
+struct Parameters : StartAndMounting {
   double gyro_constant = 0.02 * kDegPerHour;           ///< [rad/s]
   double gyro_markov = 0.01 * kDegPerHour;             ///< [rad/s]
   double gyro_time = 3600;                             ///< correlation time [s]
@@ -61,15 +71,8 @@ struct Parameters {
   double dvl_misalignment = 0;                         ///< the same, about each axis [rad]
   double dvl_lever_sigma = 0;                          ///< the same: how far dvl_lever_body is wrong on each axis [m]
   double depth_white = 0.1;                            ///< [m]
-  Vector<3> start_position{2, 2, 2};                   ///< [m]
-  double start_velocity = 0.05;                        ///< [m/s]
-  double start_tilt = 0.01 * kRadPerDeg;               ///< [rad]
-  double start_heading = 0.1 * kRadPerDeg;             ///< [rad]
-
-  Vector<3> gps_lever_body = Vector<3>::Zero();    ///< antenna from the INS [m]
-  Vector<3> dvl_lever_body = Vector<3>::Zero();    ///< [m]
-  Vector<3> depth_lever_body = Vector<3>::Zero();  ///< [m]
-  Vector<3> dpc_lever_body = Vector<3>::Zero();    ///< phase centre of the sonar's array [m]
+  Vector<3> gps_lever_body = Vector<3>::Zero();        ///< antenna from the INS [m]
+  Vector<3> dpc_lever_body = Vector<3>::Zero();        ///< phase centre of the sonar's array [m]
 };
 
 /// The sensors that aid the INS.

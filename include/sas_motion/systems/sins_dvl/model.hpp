@@ -5,10 +5,7 @@
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/gaussian.hpp"
 #include "sas_motion/navigation/preintegration.hpp"
-
-namespace sas_motion::ins {
-struct Parameters;
-}
+#include "sas_motion/systems/ins_gps_dvl/model.hpp"
 
 /// A strapdown INS aided by a DVL, by errors that may be large: attitude errors are additive errors of the quaternion
 /// [Yu1999, Li2014]; numbers as in docs/sins_dvl.md. Errors are computed minus true.
@@ -29,7 +26,7 @@ constexpr int kPaperStates = 16;  ///< the paper's: accelerometers count as free
 constexpr int kStates = 19;
 
 /// How wrong the sensors are, and the start. Section B.7 of the specification and, where that is silent, its defaults.
-struct Parameters {
+struct Parameters : ins::StartAndMounting {
   double gyro_constant = 0.1 * kDegPerHour;            ///< [rad/s]
   double angle_random_walk = 0.003 * kRadPerDeg / 60;  ///< [rad/sqrt(s)]
   double accelerometer_constant = 500 * kMicroG;       ///< [m/s^2]
@@ -41,13 +38,9 @@ struct Parameters {
   double dvl_angle_time = 600;                         ///< correlation time [s]
   Vector<3> dvl_white{0.006, 0.006, 0.018};            ///< starboard, forward, up [m/s]
   double depth_white = 0.1;                            ///< [m]
-  Vector<3> dvl_lever_body = Vector<3>::Zero();        ///< from the INS [m]
-  double dvl_lever_sigma = 0;  ///< how far that is wrong on each axis, for the factor graphs; 0: it is known [m]
-  Vector<3> depth_lever_body = Vector<3>::Zero();  ///< [m]
-  Vector<3> start_position{0.06, 0.06, 1};         ///< east, north, up [m]
-  double start_velocity = 0.05;                    ///< [m/s]
-  double start_tilt = 0.05 * kRadPerDeg;           ///< [rad]
-  double start_heading = 0.3 * kRadPerDeg;         ///< [rad]
+  double dvl_lever_sigma = 0;  ///< of the DVL's lever arm on each axis, for the factor graphs; 0: it is known [m]
+
+  Parameters() : StartAndMounting{{0.06, 0.06, 1}, 0.05, 0.05 * kRadPerDeg, 0.3 * kRadPerDeg} {}
 };
 
 /// The same sensors and start as the fusion by small angles is told of them; it has no GPS then.
