@@ -39,8 +39,8 @@ MeasurementInformation::MeasurementInformation(const NoiseMix& mix) {
   factor_ = density.information(quantum);
 }
 
-double MeasurementInformation::of(double told_variance, double time) const {
-  if (spells_ && told_variance >= kSaysNothing) return 0;
+double MeasurementInformation::of(double true_variance, double time) const {
+  if (spells_ && true_variance >= kSaysNothing) return 0;
   double factor = factor_;
   for (const auto& law : varying_) factor /= varyingSigma(law, time) * varyingSigma(law, time);
   return factor;

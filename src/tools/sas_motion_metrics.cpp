@@ -194,7 +194,7 @@ json metricsOf(const Recording& recording, const Options& options, const std::st
            {"invalid", verdicts[4]}}}};
   addErrors(report.errors, m);
   for (const auto& [group, nees] : scorer.nees()) m["nees"][group] = toJson(nees);
-  const auto& solutions = estimator.solutions;  // one without covariance has no NIS that says anything
+  const auto& solutions = estimator.solutions;  // without a covariance, NIS has no meaning
   if (std::any_of(solutions.begin(), solutions.end(), [](const Solution& s) { return s.has_covariance(); }))
     for (const auto& [sensor, nis] : scorer.nis()) m["nis"][sensor] = toJson(nis);
   if (!recording.outliers.empty()) {

@@ -50,8 +50,8 @@ class PosteriorBound {
     symmetrize(J_);
   }
 
-  /// One measurement, linearised at each truth. `factors` are, for each truth, how much each row tells over a Gaussian
-  /// of its R: 0 where nothing; none for 1. R is diagonal.
+  /// One measurement, linearised at each truth. `factors` are, for each truth, the information of each row over that of
+  /// a Gaussian with its R; none for 1. R is diagonal.
   template <int M>
   void measurement(const std::vector<LinearMeasurement<N, M>>& truths, const std::vector<Vector<M>>& factors = {}) {
     Matrix<N> sum = Matrix<N>::Zero();
@@ -106,9 +106,10 @@ class PosteriorBound {
   Matrix<N> J_;
 };
 
-/// Means of the bound over the scored times of runs whose genies say different things, or that lack different readings.
+/// Means of the bound over the scored times of runs with different side information (a genie's, or which readings are
+/// missing).
 ///
-/// Given what is told in a run, J^{-1} bounds the mean square error of all runs that are told the same (J with
+/// Given the side information of a run, J^{-1} bounds the mean square error of all runs that have the same (J with
 /// expectations over truths), so the mean of J^{-1} over runs bounds that of all runs. The inverse of the mean J is a
 /// bound too, but a lower one: (E J)^{-1} <= E J^{-1}.
 template <int N>

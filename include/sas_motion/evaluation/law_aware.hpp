@@ -10,11 +10,11 @@ namespace sas_motion {
 /// Whether the reference knows how large bursts are, or only that they come.
 enum class BurstSize { Known, Unknown };
 
-/// Options of a GaussianSumFilter that knows the laws its data are drawn from, as far as Gaussian terms say them.
+/// Options of a GaussianSumFilter that knows the laws its data are drawn from, as far as Gaussian terms express them.
 ///
 /// Student's t and multipath become Gaussians by quantiles, varying sigma a mixture over its phases, rounding a
 /// variance. Bursts become a bias mode of each row; frozen, step and ramp one of unknown size, the last two once in
-/// 1000 s (their times are not told). Several such laws share one mode of unknown size. Correlated noise counts as
+/// 1000 s (their times are not known). Several such laws share one mode of unknown size. Correlated noise counts as
 /// white, dropouts need nothing. A manoeuvre keeps its scale from epoch to epoch of `period` seconds, the time between
 /// updates. Process noise that is drawn for each state and step counts by its mean variance: there are too many
 /// branches to follow.

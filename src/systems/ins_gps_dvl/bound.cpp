@@ -27,7 +27,7 @@ ErrorModel::Motion meanMotion(const Trajectory& trajectory, double begin, double
   return motion;
 }
 
-/// The recursion along the true trajectory, for the genie of one recording.
+/// The recursion along the true trajectory, for the side information of one recording.
 class InsBound {
  public:
   InsBound(const Scenario& scenario, const Trajectory& trajectory)
@@ -83,7 +83,7 @@ class InsBound {
   std::array<MeasurementInformation, kSensors> information_;
 };
 
-/// Whether the genie says different things from run to run.
+/// Whether the side information of the bound differs from run to run.
 bool differsByRun(const Scenario& scenario) {
   for (const auto& sensor : scenario.sensors) {
     if (MeasurementInformation(sensor.noise).genie()) return true;

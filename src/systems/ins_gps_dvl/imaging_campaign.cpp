@@ -17,8 +17,7 @@ namespace {
 using imaging::FocusBench;
 using imaging::FocusResult;
 
-const std::string kErrorFree =
-    "error_free";  // truth at the stamps of the IMU: shows the error of interpolation between them
+const std::string kErrorFree = "error_free";  // truth at the stamps of the IMU: shows the error of interpolation
 
 /// The solutions of one estimator near every aperture.
 struct Estimate {

@@ -10,7 +10,7 @@ namespace sas_motion::towfish {
 namespace {
 
 /// The information of the readings of each sensor, and of the process noise.
-struct Told {
+struct Information {
   std::array<MeasurementInformation, kSensors> sensors;
   ProcessInformation process;
 
@@ -21,7 +21,7 @@ struct Told {
     return {sensor.of(labelled.variance[0], time), sensor.of(labelled.variance[1], time)};
   }
 
-  /// Whether two runs are told the same.
+  /// Whether it is the same in two runs.
   bool alike(const SimulatedRun& a, const SimulatedRun& b) const {
     return !process.genie &&
            std::equal(a.measurements().begin(), a.measurements().end(), b.measurements().begin(),
@@ -31,18 +31,18 @@ struct Told {
   }
 };
 
-Told toldOf(const Scenario& scenario) {
+Information informationOf(const Scenario& scenario) {
   const auto& sensors = scenario.sensors;
   return {{MeasurementInformation(sensors[0].noise), MeasurementInformation(sensors[1].noise),
            MeasurementInformation(sensors[2].noise), MeasurementInformation(sensors[3].noise)},
           processInformation(scenario.process, kStates, scenario.step)};
 }
 
-/// The recursion for what is told of one run, with expectations over the truths of all.
+/// The recursion for the information of one run, with expectations over the truths of all.
 class RunBound {
  public:
-  RunBound(const Scenario& scenario, const Told& told, const std::vector<SimulatedRun>& runs)
-      : model_(scenario.motion), step_(scenario.step), told_(told), runs_(runs) {}
+  RunBound(const Scenario& scenario, const Information& information, const std::vector<SimulatedRun>& runs)
+      : model_(scenario.motion), step_(scenario.step), information_(information), runs_(runs) {}
 
   void follow(const SimulatedRun& run, Stamp from, MeanBound<kStates>& mean) const {
     const double current = 1 / (model_.parameters().current_sigma * model_.parameters().current_sigma);
@@ -61,9 +61,10 @@ class RunBound {
     std::vector<Transition<kStates>> steps;
     for (const auto& other : runs_) {
       steps.push_back(model_.transition(other.truth()[k - 1], Input{}, step_));
-      if (told_.process.genie) steps.back().Q = toldCovariance<kStates>(steps.back().Q, run.processVariance()[k]);
+      if (information_.process.genie)
+        steps.back().Q = toldCovariance<kStates>(steps.back().Q, run.processVariance()[k]);
     }
-    bound.step(steps, told_.process.genie ? 1 : told_.process.factor);
+    bound.step(steps, information_.process.genie ? 1 : information_.process.factor);
   }
 
   void update(PosteriorBound<kStates>& bound, const LabelledMeasurement& labelled, std::size_t k) const {
@@ -80,13 +81,13 @@ class RunBound {
       model_.linearize(labelled.z, other.truth()[k], [&](const auto& one) {
         if constexpr (std::decay_t<decltype(one)>::kRows == M) linear.push_back(one);
       });
-    const Vector<M> factors = told_.factors(labelled).head<M>();
+    const Vector<M> factors = information_.factors(labelled).head<M>();
     bound.measurement<M>(linear, std::vector<Vector<M>>(linear.size(), factors));
   }
 
   Model model_;
   double step_;  // [s]
-  const Told& told_;
+  const Information& information_;
   const std::vector<SimulatedRun>& runs_;
 };
 
@@ -94,13 +95,13 @@ class RunBound {
 
 Named<double> towfishBound(const Scenario& scenario, double skip, const std::vector<std::uint64_t>& seeds) {
   if (scenario.kind != Scenario::Kind::RandomWalk) return {};
-  const Told told = toldOf(scenario);
+  const Information information = informationOf(scenario);
   std::vector<SimulatedRun> runs;
   runs.reserve(seeds.size());
   for (const auto seed : seeds) runs.emplace_back(scenario, seed);
-  const bool once =
-      std::all_of(runs.begin(), runs.end(), [&](const SimulatedRun& run) { return told.alike(runs.front(), run); });
-  const RunBound bound(scenario, told, runs);
+  const bool once = std::all_of(runs.begin(), runs.end(),
+                                [&](const SimulatedRun& run) { return information.alike(runs.front(), run); });
+  const RunBound bound(scenario, information, runs);
   MeanBound<kStates> mean;
   for (const auto& run : runs) {
     bound.follow(run, Simulator::kStart + stampFromSeconds(skip), mean);
