@@ -68,7 +68,7 @@ class RunBound {
   }
 
   void update(PosteriorBound<kStates>& bound, const LabelledMeasurement& labelled, std::size_t k) const {
-    if (labelled.z.sensor == Sensor::Position)
+    if (rowsOf(labelled.z.sensor) == 2)
       updateRows<2>(bound, labelled, k);
     else if (rowsOf(labelled.z.sensor) == 1)
       updateRows<1>(bound, labelled, k);

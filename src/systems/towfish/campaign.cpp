@@ -31,7 +31,7 @@ void score(const Group& group, const StateVector& error, const StateMatrix& P, E
 LawInfo readLaw(YamlSection& yaml, const std::string& name, Scenario& scenario) {
   auto sensors = yaml.section("sensors");
   bool differ = false;
-  for (const auto sensor : kNoisy) {
+  for (const auto sensor : noisySensors()) {
     auto& noise = scenario.sensor(sensor).noise;
     if (yaml.has("noise")) noise = NoiseMix::read(yaml, "noise");
     if (!sensors.has(sensorName(sensor))) continue;

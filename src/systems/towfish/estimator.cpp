@@ -45,8 +45,7 @@ const char* invalidity(const Measurement& z, const Config& config) {
   if (!z.value.allFinite() || !z.lever_arm_body.allFinite()) return "not finite";
   for (int row = 0; row < rowsOf(z.sensor); ++row)
     if (!(z.variance(row) > 1e-30) || !(z.variance(row) < 1e12)) return "no usable covariance";
-  if (z.sensor == Sensor::Position && z.value.norm() > 1e6) return "more than 1000 km from the datum";
-  if (z.sensor == Sensor::Speed && std::abs(z.value(0)) > 100) return "faster than 100 m/s";
+  if (const char* reason = implausibility(z)) return reason;
   if (z.sensor == Sensor::TurnRate && std::abs(z.value(0)) > config.turn_rate_limit)
     return "turn rate beyond its limit";
   return nullptr;

@@ -85,6 +85,12 @@ const char* sensorName(Sensor sensor) {
   return "unknown";
 }
 
+const char* implausibility(const Measurement& z) {
+  if (z.sensor == Sensor::Position && z.value.norm() > 1e6) return "more than 1000 km from the datum";
+  if (z.sensor == Sensor::Speed && std::abs(z.value(0)) > 100) return "faster than 100 m/s";
+  return nullptr;
+}
+
 Model::Model(const MotionParameters& parameters) : parameters_(parameters) {
   requirePositive("current_sigma", parameters.current_sigma);
   requirePositive("current_time_constant", parameters.current_time_constant);

@@ -35,7 +35,7 @@ Motion trueMotion(const Model& model, const SimulatedRun& run) {
 /// Updates a second of the fastest sensor.
 double fastestRate(const Scenario& scenario) {
   double rate = 1 / scenario.duration;
-  for (const auto sensor : kNoisy) rate = std::max(rate, scenario.sensor(sensor).rate);
+  for (const auto sensor : noisySensors()) rate = std::max(rate, scenario.sensor(sensor).rate);
   return rate;
 }
 
@@ -58,7 +58,7 @@ std::unique_ptr<Estimator> makeBayesReference(const Config& config, const Scenar
   auto options = lawAware(law, scenario.process, 1 / fastestRate(scenario));
   options.mode.common = true;
   options.mode.rows = 0;
-  for (const auto sensor : kNoisy)
+  for (const auto sensor : noisySensors())
     if (scenario.sensor(sensor).noise.name() == law.name())
       for (int row = 0; row < rowsOf(sensor); ++row)
         options.mode.rows |= 1U << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));

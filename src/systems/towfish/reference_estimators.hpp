@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <functional>
 
 #include "campaign/campaign.hpp"
@@ -12,8 +11,13 @@
 /// Estimators that serve as reference: they know what the simulator drew, or by which law.
 namespace sas_motion::towfish {
 
-/// The sensors whose noise a law may change.
-constexpr std::array<Sensor, 3> kNoisy{Sensor::Position, Sensor::Heading, Sensor::Speed};
+/// The sensors whose noise a law may change: those that measure the state.
+inline std::vector<Sensor> noisySensors() {
+  std::vector<Sensor> noisy;
+  for (int i = 0; i < kSensors; ++i)
+    if (const auto sensor = static_cast<Sensor>(i); rowsOf(sensor) > 0) noisy.push_back(sensor);
+  return noisy;
+}
 
 /// Takes the output of an estimator part by part: a whole run of every estimator would not stay in the cache.
 using Listener = std::function<void(const Output&)>;

@@ -54,7 +54,7 @@ TEST(Oracle, FollowsTheJumpsOfTheProcessAndSaysHowWell) {
 
 TEST(Oracle, TakesEachStepOfTheProcessWhereReadingsAreSecondsApart) {
   auto scenario = testing::zhu2007(300);
-  for (const auto sensor : kNoisy) scenario.sensor(sensor).rate = 0.5;
+  for (const auto sensor : noisySensors()) scenario.sensor(sensor).rate = 0.5;
   scenario.process = testing::contaminated(0.1, 20);  // ten draws for each reading
   const Config config = testing::configFor(scenario);
   std::cout << "seeds 1 to 20\n";

@@ -39,6 +39,9 @@ struct Measurement {
       Vector<2>::Zero();  ///< position only: antenna from the reference point, forward and starboard [m]
 };
 
+/// Why no such sensor reads a value like this one, as a literal; null where one may.
+const char* implausibility(const Measurement& z);
+
 /// The order of fusion: by time, then by sensor.
 inline bool before(const Measurement& a, const Measurement& b) {
   return a.stamp != b.stamp ? a.stamp < b.stamp : a.sensor < b.sensor;
