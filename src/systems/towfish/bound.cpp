@@ -11,7 +11,7 @@ namespace {
 
 /// The information of the readings of each sensor, and of the process noise.
 struct Information {
-  std::array<MeasurementInformation, kSensors> sensors;
+  std::vector<MeasurementInformation> sensors;  // by Sensor
   ProcessInformation process;
 
   /// Of the rows of one reading, over Gaussian ones.
@@ -32,10 +32,9 @@ struct Information {
 };
 
 Information informationOf(const Scenario& scenario) {
-  const auto& sensors = scenario.sensors;
-  return {{MeasurementInformation(sensors[0].noise), MeasurementInformation(sensors[1].noise),
-           MeasurementInformation(sensors[2].noise), MeasurementInformation(sensors[3].noise)},
-          processInformation(scenario.process, kStates, scenario.step)};
+  Information information{{}, processInformation(scenario.process, kStates, scenario.step)};
+  for (const auto& sensor : scenario.sensors) information.sensors.emplace_back(sensor.noise);
+  return information;
 }
 
 /// The recursion for the information of one run, with expectations over the truths of all.
