@@ -64,6 +64,7 @@ Config::Config() {
   sensor(Sensor::Heading) = {0.5 * kRadPerDeg, 0.01 * kRadPerDeg, false, 0, true};
   sensor(Sensor::Speed) = {0.05, 0.001, false, 0, true};
   sensor(Sensor::TurnRate) = {0.1 * kRadPerDeg, 0, false, 0, true};
+  sensor(Sensor::Velocity) = {0.02, 0.001, false, 0, true};
 }
 
 void readMotionParameters(YamlSection yaml, MotionParameters& p) {

@@ -81,13 +81,15 @@ const char* sensorName(Sensor sensor) {
     case Sensor::Heading: return "heading";
     case Sensor::Speed: return "speed";
     case Sensor::TurnRate: return "turn_rate";
+    case Sensor::Velocity: return "velocity";
   }
   return "unknown";
 }
 
 const char* implausibility(const Measurement& z) {
   if (z.sensor == Sensor::Position && z.value.norm() > 1e6) return "more than 1000 km from the datum";
-  if (z.sensor == Sensor::Speed && std::abs(z.value(0)) > 100) return "faster than 100 m/s";
+  const bool fast = z.value.head(rowsOf(z.sensor)).norm() > 100;
+  if ((z.sensor == Sensor::Speed || z.sensor == Sensor::Velocity) && fast) return "faster than 100 m/s";
   return nullptr;
 }
 
@@ -160,6 +162,10 @@ Vector<2> Model::expected(const Measurement& z, const StateVector& x) {
     }
     case Sensor::Heading: return {x(kHeading), 0};
     case Sensor::Speed: return {x(kSpeed), 0};
+    case Sensor::Velocity: {
+      const double c = std::cos(x(kHeading)), s = std::sin(x(kHeading));
+      return {x(kSpeed) + c * x(kCurrentNorth) + s * x(kCurrentEast), c * x(kCurrentEast) - s * x(kCurrentNorth)};
+    }
     case Sensor::TurnRate: break;
   }
   return Vector<2>::Zero();
@@ -181,6 +187,20 @@ LinearMeasurement<kStates, 1> Model::heading(const Measurement& z, const StateVe
 
 LinearMeasurement<kStates, 1> Model::speed(const Measurement& z, const StateVector& x) const {
   return scalar(z, kSpeed, z.value(0) - x(kSpeed));
+}
+
+LinearMeasurement<kStates, 2> Model::velocity(const Measurement& z, const StateVector& x) const {
+  auto result = linearized<2>(z);
+  const double c = std::cos(x(kHeading)), s = std::sin(x(kHeading));
+  const Vector<2> h = expected(z, x);
+  result.innovation = z.value - h;
+  result.H(0, kSpeed) = 1;
+  result.H(0, kCurrentNorth) = result.H(1, kCurrentEast) = c;
+  result.H(0, kCurrentEast) = s;
+  result.H(1, kCurrentNorth) = -s;
+  result.H(0, kHeading) = h(1);
+  result.H(1, kHeading) = x(kSpeed) - h(0);
+  return result;
 }
 
 }  // namespace sas_motion::towfish

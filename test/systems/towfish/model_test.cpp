@@ -48,7 +48,7 @@ TEST(TowfishModel, MeasurementJacobiansMatchCentralDifferences) {
   const Model model{MotionParameters()};
   const double h = 1e-5;
   for (int i = 0; i < 200; ++i)
-    for (const Sensor sensor : {Sensor::Position, Sensor::Heading, Sensor::Speed}) {
+    for (const Sensor sensor : {Sensor::Position, Sensor::Heading, Sensor::Speed, Sensor::Velocity}) {
       const StateVector x = trickyState(random, i);
       Measurement z;
       z.sensor = sensor;
@@ -140,6 +140,14 @@ TEST(TowfishModel, AntennaStandsWhereItsLeverArmPoints) {
             1e-12);  // heading north: forward is north, starboard east
   x(kHeading) = kPi / 2;
   EXPECT_LT((Model::expected(z, x) - Vector<2>(-1, 4)).norm(), 1e-12);  // heading east: starboard is south
+}
+
+TEST(TowfishModel, AVelocityOverGroundIsSpeedAndCurrentInTheBody) {
+  StateVector x;
+  x << 0, 0, 0.3, -0.4, kPi / 2, 2;  // bound east; the current sets north and west
+  Measurement z;
+  z.sensor = Sensor::Velocity;
+  EXPECT_LT((Model::expected(z, x) - Vector<2>(1.6, -0.3)).norm(), 1e-12);  // slower, and to port
 }
 
 TEST(TowfishModel, RefusesParametersThatAreNotPositive) {

@@ -21,11 +21,13 @@ using StateVector = Vector<kStates>;
 using StateMatrix = Matrix<kStates>;
 
 /// Sensors in the order in which measurements of the same stamp are fused.
-enum class Sensor : std::uint8_t { Position, Heading, Speed, TurnRate };
-constexpr int kSensors = 4;
+enum class Sensor : std::uint8_t { Position, Heading, Speed, TurnRate, Velocity };
+constexpr int kSensors = 5;
 
 /// How many rows a sensor's measurement has; the turn rate is an input of the motion and has none.
-constexpr int rowsOf(Sensor sensor) { return sensor == Sensor::Position ? 2 : sensor == Sensor::TurnRate ? 0 : 1; }
+constexpr int rowsOf(Sensor sensor) {
+  return sensor == Sensor::Position || sensor == Sensor::Velocity ? 2 : sensor == Sensor::TurnRate ? 0 : 1;
+}
 const char* sensorName(Sensor sensor);
 
 /// One measurement. Position: north and east of the antenna [m]; heading [rad]; speed [m/s]; turn rate [rad/s]
@@ -77,17 +79,18 @@ class Model {
   /// y - x with the heading wrapped.
   static StateVector difference(const StateVector& y, const StateVector& x);
 
-  /// Calls `use` with the LinearMeasurement<6, 2> of a position or the LinearMeasurement<6, 1> of a heading or speed
-  /// about x. (8)
+  /// Calls `use` with the LinearMeasurement<6, 2> of a position or velocity or the LinearMeasurement<6, 1> of a heading
+  /// or speed about x. (8)
   template <class Use>
   auto linearize(const Measurement& z, const StateVector& x, Use&& use) const {
-    return z.sensor == Sensor::Position ? use(position(z, x))
-                                        : use(z.sensor == Sensor::Heading ? heading(z, x) : speed(z, x));
+    if (rowsOf(z.sensor) == 2) return use(z.sensor == Sensor::Position ? position(z, x) : velocity(z, x));
+    return use(z.sensor == Sensor::Heading ? heading(z, x) : speed(z, x));
   }
 
   LinearMeasurement<kStates, 2> position(const Measurement& z, const StateVector& x) const;
   LinearMeasurement<kStates, 1> heading(const Measurement& z, const StateVector& x) const;
   LinearMeasurement<kStates, 1> speed(const Measurement& z, const StateVector& x) const;
+  LinearMeasurement<kStates, 2> velocity(const Measurement& z, const StateVector& x) const;
 
   /// h(x): what a perfect sensor would read, in `value`'s rows.
   static Vector<2> expected(const Measurement& z, const StateVector& x);

@@ -68,6 +68,7 @@ void TowfishRecorder::measurements(const std::vector<LabelledMeasurement>& measu
     const ros::Time time = timeOf(z.stamp);
     if (z.sensor == Sensor::Position) bag_.write("gnss/fix", time, fix(z));
     if (z.sensor == Sensor::Speed) bag_.write("dvl/twist", time, twist(z));
+    if (z.sensor == Sensor::Velocity) bag_.write("dvl/velocity", time, twist(z));
     if (z.sensor == Sensor::Heading || z.sensor == Sensor::TurnRate) {
       fill(imu, z);
       has_imu = true;
@@ -92,8 +93,10 @@ geometry_msgs::TwistWithCovarianceStamped TowfishRecorder::twist(const Measureme
   message.header.seq = twist_seq_++;
   message.header.stamp = timeOf(z.stamp);
   message.header.frame_id = "dvl_link";
+  const std::size_t rows = static_cast<std::size_t>(rowsOf(z.sensor));
   message.twist.twist.linear.x = z.value(0);
-  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i == 0 ? z.variance(0) : 1e6;
+  message.twist.twist.linear.y = rows > 1 ? -z.value(1) : 0;
+  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = i < rows ? z.variance(0) : 1e6;
   return message;
 }
 

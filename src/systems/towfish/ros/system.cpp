@@ -17,7 +17,7 @@ using namespace towfish;  // the names of the states
 using Twist = geometry_msgs::TwistWithCovarianceStamped;
 using Measurements = std::vector<Measurement>;
 
-enum Source { kFix, kImu, kTwist };
+enum Source { kFix, kImu, kTwist, kVelocity };
 
 double usedFrom(double variance, const SensorOptions& options) {
   return usedVariance(variance, options.sigma, options.floor, options.override_message);
@@ -97,6 +97,19 @@ std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovariance
   return {z};
 }
 
+/// Over ground, of a DVL with bottom lock. Its lever arm is not applied: a towed body turns slowly.
+Measurements velocityOf(const Twist& twist, const Transform& T_base_dvl, const Config& config) {
+  const SensorOptions& options = config.sensor(Sensor::Velocity);
+  if (!options.enabled) return {};
+  Measurement z = begin(twist.header.stamp, Sensor::Velocity, config);
+  const Vector<3> velocity = T_base_dvl.linear() * vectorOf(twist.twist.twist.linear);
+  const auto& P = twist.twist.covariance;
+  const Vector<3> variance = T_base_dvl.linear().cwiseAbs2() * Vector<3>(P[0], P[7], P[14]);
+  z.value << velocity.x(), -velocity.y();
+  z.variance << usedFrom(variance.x(), options), usedFrom(variance.y(), options);
+  return {z};
+}
+
 /// Messages become measurements of the towfish.
 class TowfishRun final : public SystemRun {
  public:
@@ -112,6 +125,9 @@ class TowfishRun final : public SystemRun {
     });
     listenAt<Twist>(kTwist, [this](const auto& twist, const Transform& T_base_dvl) {
       return pass(measurementsOf(twist, T_base_dvl, config_));
+    });
+    listenAt<Twist>(kVelocity, [this](const auto& twist, const Transform& T_base_dvl) {
+      return pass(velocityOf(twist, T_base_dvl, config_));
     });
   }
 
@@ -142,7 +158,9 @@ class TowfishSystem final : public System {
   explicit TowfishSystem(YamlSection& yaml) {
     sources = {sourceOf<sensor_msgs::NavSatFix>("fix", "gnss/fix", "positions are needed"),
                sourceOf<sensor_msgs::Imu>("imu", "imu/data", "headings are needed"),
-               sourceOf<Twist>("twist", "dvl/twist", "speeds help")};
+               sourceOf<Twist>("twist", "dvl/twist", "speeds help"),
+               sourceOf<Twist>("velocity", "dvl/velocity", "velocities over ground help")};
+    sources[kVelocity].need = MessageSource::Need::NamedAlone;
     sources[kFix].need = sources[kImu].need = MessageSource::Need::Required;
     estimators = estimatorNames();
     preferred = {"kf", "robust_kf"};
