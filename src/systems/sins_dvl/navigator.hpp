@@ -12,7 +12,7 @@
 #include "sas_motion/filters/particles/simplex_blocks.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/navigation/bridged_gap.hpp"
-#include "sas_motion/navigation/smooth_track.hpp"
+#include "sas_motion/navigation/steady_track.hpp"
 #include "sas_motion/systems/ins_gps_dvl/alignment.hpp"
 #include "sas_motion/systems/sins_dvl/estimator.hpp"
 
@@ -26,8 +26,8 @@ namespace sas_motion::sins {
 template <int N, class Filter>
 class Navigator final : public ins::Estimator {
  public:
-  Navigator(Filter filter, const Config& config, bool smooth)
-      : filter_(std::make_shared<Filter>(std::move(filter))), config_(config), smooth_(smooth) {}
+  Navigator(Filter filter, const Config& config, bool steady)
+      : filter_(std::make_shared<Filter>(std::move(filter))), config_(config), steady_(steady) {}
 
   void start(const NavigationState& state, Stamp stamp) override {
     ins_.emplace(state, stamp, config_.imu);
@@ -47,7 +47,7 @@ class Navigator final : public ins::Estimator {
     mean_ = belief.mean;
     covariance_ = covarianceOf(belief);
     waiting_.clear();
-    track_.emplace(state, SmoothTrack::Options{});
+    track_.emplace(state, SteadyTrack::Options{});
   }
 
   std::unique_ptr<ins::Estimator> clone() const override { return std::make_unique<Navigator>(*this); }
@@ -72,8 +72,8 @@ class Navigator final : public ins::Estimator {
       fuse(group, output);
     }
     advance(reading, reading.stamp, gap);
-    if (!smooth_ && !covariance_) covariance_ = covarianceOf(filter_->belief());
-    if (smooth_)
+    if (!steady_ && !covariance_) covariance_ = covarianceOf(filter_->belief());
+    if (steady_)
       output.solutions.push_back({ins_->stamp(), track_->state(), true, true, std::nullopt, rateOverGround()});
     else
       output.solutions.push_back({ins_->stamp(), fused(), true, true, covariance_, rateOverGround()});
@@ -117,7 +117,7 @@ class Navigator final : public ins::Estimator {
     felt_.add(reading.rate_body, reading.force_body, dt);
     if (gap > 0) gap_variance_ += BridgedGap{}.variance(gap, dt);
     if (gap > 0 || felt_.duration() > config_.longest_step - 1e-9) predict();
-    if (smooth_) track_->move(fused(), dt);
+    if (steady_) track_->move(fused(), dt);
   }
 
   void predict() {
@@ -181,7 +181,7 @@ class Navigator final : public ins::Estimator {
     filter.replace([&](const Vector<N>& x) { return view.constrained(x); });
     mean_ = filter.mean();
     covariance_.reset();
-    if (smooth_) track_->jump(fused());
+    if (steady_) track_->jump(fused());
     for (const auto& one : group.readings)
       if (fuses(one.sensor)) output.audits.push_back(auditOf(one, update));
   }
@@ -227,8 +227,8 @@ class Navigator final : public ins::Estimator {
   Vector<N> mean_ = Vector<N>::Zero();
   std::optional<Matrix<9>> covariance_;  // of the solution
   std::deque<ins::Aiding> waiting_;
-  bool smooth_;
-  std::optional<SmoothTrack> track_;
+  bool steady_;
+  std::optional<SteadyTrack> track_;
 };
 
 constexpr double kCentreWeight = 0.2;  // of the simplex
@@ -241,7 +241,7 @@ std::unique_ptr<ins::Estimator> makeNavigator(const NamedFilter& named, const Co
   if (named.alone) options.particles = 1;
   if (named.robust) options.loss = Loss(LossKind::Cauchy);
   const auto navigator = [&](auto filter) -> std::unique_ptr<ins::Estimator> {
-    return std::make_unique<Navigator<N, decltype(filter)>>(std::move(filter), config, named.smooth);
+    return std::make_unique<Navigator<N, decltype(filter)>>(std::move(filter), config, named.steady);
   };
   switch (named.kind) {
     case FilterKind::Bootstrap: return navigator(ParticleFilter<N>(options));

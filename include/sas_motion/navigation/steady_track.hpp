@@ -10,13 +10,13 @@ namespace sas_motion {
 
 /// For imaging: what an INS measures, integrated, which follows a fused solution's velocity and position slowly, so
 /// that no reading makes it jump or bend within an aperture.
-class SmoothTrack {
+class SteadyTrack {
  public:
   struct Options {
     double velocity_time = 30, position_time = 3000;  ///< in which it follows [s]
   };
 
-  SmoothTrack(const NavigationState& start, const Options& options) : options_(options), state_(start), fused_(start) {}
+  SteadyTrack(const NavigationState& start, const Options& options) : options_(options), state_(start), fused_(start) {}
 
   /// The fused solution has moved, without a reading, for `dt` seconds.
   void move(const NavigationState& fused, double dt) {
@@ -43,7 +43,7 @@ class SmoothTrack {
  private:
   Options options_;
   NavigationState state_, fused_;
-  Vector<3> lag_ = Vector<3>::Zero();  // velocity of the smooth solution less the fused one
+  Vector<3> lag_ = Vector<3>::Zero();  // velocity of the steady solution less the fused one
 };
 
 }  // namespace sas_motion
