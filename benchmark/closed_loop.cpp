@@ -45,7 +45,7 @@ const std::string kBelief = "steady_robust_kf27";
 const std::array<std::string, 3> kEstimators{"robust_kf27", kBelief, "batch"};
 using Measures = std::map<std::string, std::vector<double>>;
 
-/// Eight receivers 0.1 m apart, as micronavigation_accuracy has it, at the inertial unit: simulated receivers do not
+/// Eight receivers 0.1 m apart, as micronavigation_accuracy has it, at the IMU: simulated receivers do not
 /// turn while the echo is under way.
 FocusSettings micronavigationSettings(double window) {
   FocusSettings settings;

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "filters/bank_judgement.hpp"
 #include "filters/bank_moments.hpp"
+#include "filters/bank_update.hpp"
 #include "filters/instantiate.hpp"
 #include "sas_motion/config/yaml_vector.hpp"
 #include "sas_motion/filters/conditioning.hpp"
@@ -127,7 +127,7 @@ Update<BankBelief<N>, M> BankKalmanFilter<N>::update(const Belief& prior, const 
     result.belief.epoch_begin = z.time;
   }
   openEpoch(result.belief, z.time);
-  result.weights = BankJudgement<N, M>(options_, result.belief, z).weights();
+  result.weights = BankUpdate<N, M>(options_, result.belief, z).weights();
   summarize(result.belief);
   if (!result.belief.summary.mean.allFinite() || !result.belief.summary.covariance.allFinite()) {
     result.belief = prior;

@@ -6,7 +6,7 @@
 
 namespace sas_motion {
 
-/// What a body's motion may have been, besides what the next reading says, in a gap of the inertial unit.
+/// What a body's motion may have been, besides what the next reading says, in a gap of the IMU.
 struct BridgedGap {
   double force = 1, rate = 0.1;  ///< standard deviations [m/s^2], [rad/s]
 

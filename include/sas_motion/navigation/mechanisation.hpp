@@ -30,7 +30,7 @@ void displace(NavigationState& state, const Vector<3>& metres_nav);
 /// Rotation vector phi of C' = (I - [phi x]) C, from the true attitude to the computed one; nav [rad].
 Vector<3> attitudeError(const Eigen::Quaterniond& computed, const Eigen::Quaterniond& truth);
 
-/// What an inertial unit says of the interval that ends at its stamp: means over it, as units that integrate inside
+/// What an IMU says of the interval that ends at its stamp: means over it, as units that integrate inside
 /// give them.
 struct ImuReading {
   Stamp stamp = 0;
@@ -38,7 +38,7 @@ struct ImuReading {
   Vector<3> force_body = Vector<3>::Zero();  ///< specific force [m/s^2]
 };
 
-/// What became of a reading of the inertial unit.
+/// What became of a reading of the IMU.
 enum class ImuVerdict {
   Started,      ///< the first one: it says when the time begins, and nothing else
   Integrated,   ///< as it came

@@ -6,7 +6,7 @@
 
 namespace sas_motion {
 
-/// What an inertial unit felt over an interval, apart from where it began: rotation, velocity and way on the body's
+/// What an IMU felt over an interval, apart from where it began: rotation, velocity and way on the body's
 /// axes at the beginning, and how each depends on drifts and biases of the unit. Many states can then be moved by it,
 /// each in one step. [Forster2017]
 class Preintegration {

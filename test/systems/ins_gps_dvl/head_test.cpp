@@ -21,7 +21,7 @@ void feed(LiveRun& live, const std::vector<Reading>& stream) {
   for (const auto& reading : stream) live.process(reading);
 }
 
-/// The first part of a stream, whose last reading is of the inertial unit.
+/// The first part of a stream, whose last reading is of the IMU.
 std::vector<Reading> until(std::vector<Reading> stream, double time) {
   while (!isInertial(stream.back()) || stampOf(stream.back()) > kEpoch + stampFromSeconds(time)) stream.pop_back();
   return stream;
@@ -58,7 +58,7 @@ TEST(InsHead, AnyOrderInsideTheLagGivesTheSamePresent) {
 }
 
 TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
-  // GIVEN a run in waves, WHEN states are asked for between the stamps of the inertial unit, THEN their errors are
+  // GIVEN a run in waves, WHEN states are asked for between the stamps of the IMU, THEN their errors are
   // those at the stamps around them.
   Scenario scenario = surveyOf(40);
   LiveRun live(optionsOf(scenario), {"kf27"}, makeEstimator);

@@ -35,7 +35,7 @@ TEST(ImagingSystem, TheImageFollowsTheNavigation) {
   // GIVEN a survey on which a sonar looks at a point from 10 m of track, WHEN it is focused along each estimate
   const auto windows = windowsOf(imagingSuite("[error_free, ins, gnss_alone, robust_kf27, steady_robust_kf27]"));
   for (std::size_t i = 0; i < 2; ++i) {
-    // THEN truth at the stamps of the inertial unit loses nothing
+    // THEN truth at the stamps of the IMU loses nothing
     const auto truth = windows.at("error_free").at(i);
     EXPECT_LT(truth.at("path_wavelengths"), 1e-3);
     EXPECT_LT(std::abs(truth.at("peak_loss")), 1e-3);

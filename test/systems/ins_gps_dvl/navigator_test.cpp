@@ -16,7 +16,7 @@ namespace {
 template <class Filter>
 using OptionsOf = typename Navigator<Filter>::Options;
 
-/// Runs over a recording; `after` sees the navigator behind each reading of the inertial unit.
+/// Runs over a recording; `after` sees the navigator behind each reading of the IMU.
 template <class Filter, class After>
 void run(Navigator<Filter>& navigator, const Recording& recording, const After& after) {
   auto next = recording.aiding.begin();
@@ -159,7 +159,7 @@ TEST(InsNavigator, TheSolutionByGnssAloneHasTheStampsOfItsFixes) {
 }
 
 TEST(InsNavigator, TakesReadingsBetweenThoseOfTheInertialUnit) {
-  // GIVEN sensors at odd rates, so that their stamps lie between those of the inertial unit
+  // GIVEN sensors at odd rates, so that their stamps lie between those of the IMU
   Scenario scenario = shortScenario(60);
   scenario.sensor(Sensor::Dvl).rate = scenario.parameters.dvl_rate = 4.7;
   scenario.sensor(Sensor::Gps).rate = 0.93;
@@ -198,7 +198,7 @@ TEST(InsNavigator, SmoothSolutionDoesNotJumpWhereAFixPullsTheFusedOne) {
     steady_error = steady;
   });
   EXPECT_GT(fused_jump, 0.02);
-  EXPECT_LT(steady_jump, 0.001) << "from one reading of the inertial unit to the next";
+  EXPECT_LT(steady_jump, 0.001) << "from one reading of the IMU to the next";
   EXPECT_LT((fused_error - steady_error).head<2>().norm(), 10) << "it stays near";
 }
 
@@ -218,7 +218,7 @@ TEST(InsNavigator, ReportsLateReadings) {
 }
 
 TEST(InsNavigator, LivesThroughAGapOfTheInertialUnit) {
-  // GIVEN an inertial unit that is silent for two seconds
+  // GIVEN an IMU that is silent for two seconds
   const Scenario scenario = shortScenario(120);
   const Trajectory trajectory(scenario.track, scenario.duration);
   Recording recording = simulate(scenario, trajectory, 2);

@@ -57,7 +57,7 @@ class Estimator {
   virtual void start(const NavigationState& state, Stamp stamp) = 0;
   /// Takes one reading of a sensor that aids. Data never throws.
   virtual void process(const Aiding& reading, Output& output) = 0;
-  /// Takes one reading of the inertial unit, and says what became of it.
+  /// Takes one reading of the IMU, and says what became of it.
   virtual ImuVerdict process(const ImuReading& reading, Output& output) = 0;
   /// The end of the data, or a pause: settles everything that is still open.
   virtual void finish(Output&) {}

@@ -35,13 +35,13 @@ struct NavigatorOptions {
   BridgedGap bridge;
 };
 
-/// The variance by a part of a gap of the inertial unit in the model's units, see BridgedGap.
+/// The variance by a part of a gap of the IMU in the model's units, see BridgedGap.
 Errors gapVariance(const BridgedGap& bridge, double gap, double part);
 
-/// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of
+/// Mechanises the IMU, estimates its errors and those of GPS and DVL with a filter, and takes them out: of
 /// the INS itself (feedback) or of its output (open loop). (C.4)
 ///
-/// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale.
+/// Readings that aid are held until the IMU has come to their stamp; those before its last stamp are stale.
 template <class Filter>
 class Navigator {
  public:

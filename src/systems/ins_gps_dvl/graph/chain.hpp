@@ -31,7 +31,7 @@ class InsChain {
   }
   /// Appends what is refused to `audits`, and nodes that are complete to `stops`.
   ImuVerdict add(const ImuReading& reading, std::vector<Audit>& audits, std::vector<Stop>& stops);
-  /// Ends at the last stamp of the inertial unit.
+  /// Ends at the last stamp of the IMU.
   void close(std::vector<Stop>& stops);
 
   const RobustKf27& filter() const { return filter_; }

@@ -130,7 +130,7 @@ void InsSmoother::settle(std::size_t count, Output& output) {
   window_->forget(count);
 }
 
-/// A node's readings, and the way to the next one at the stamps of the inertial unit.
+/// A node's readings, and the way to the next one at the stamps of the IMU.
 void InsSmoother::putOut(std::size_t node, Output& output) const {
   const auto audits = window_->audits(node);
   output.audits.insert(output.audits.end(), audits.begin(), audits.end());

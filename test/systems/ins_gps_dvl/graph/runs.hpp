@@ -25,7 +25,7 @@ inline Config configOf(const Scenario& scenario) {
   return config;
 }
 
-/// Feeds the readings from one on that come no later than the end of the inertial unit's, without the finish.
+/// Feeds the readings from one on that come no later than the end of the IMU's, without the finish.
 inline void feed(Estimator& estimator, const Recording& recording, Output& output) {
   auto next = recording.aiding.begin();
   for (const auto& reading : recording.imu) {

@@ -216,7 +216,7 @@ TEST(InsSmoother, FindsADvlThatIsNotWhereItIsToldToBe) {
 TEST(InsSmoother, StandsWhatSensorsReallySend) {
   const Scenario scenario = surveyOf(40);
   Recording recording = recordingOf(scenario, 6);
-  // GIVEN a gap of the inertial unit, nonsense, readings that are late, and some between its stamps a microsecond apart
+  // GIVEN a gap of the IMU, nonsense, readings that are late, and some between its stamps a microsecond apart
   recording.imu.erase(recording.imu.begin() + 2000, recording.imu.begin() + 2300);
   recording.imu[1000].force_body.x() = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < recording.aiding.size(); ++k)

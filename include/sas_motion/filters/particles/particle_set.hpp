@@ -42,9 +42,9 @@ struct ParticleUpdate {
 /// What particle filters share: the particles in two buffers, their weights, threads and random numbers. A copy has the
 /// same threads, so that not both may be at work at a time.
 template <class Particle>
-class Crowd {
+class ParticleSet {
  public:
-  explicit Crowd(const ParticleOptions& options)
+  explicit ParticleSet(const ParticleOptions& options)
       : options_(options),
         weights_(static_cast<std::size_t>(std::max(0, options.particles))),
         particles_(static_cast<std::size_t>(options.particles)),
@@ -161,10 +161,10 @@ class Crowd {
 
 /// Calls `add(i, weight)` for every particle that has weight and is finite. Their sum is what is returned.
 template <class Particles, class State, class Add>
-double overFinite(const Particles& crowd, const State& state, const Add& add) {
+double overFinite(const Particles& particles, const State& state, const Add& add) {
   double sum = 0;
-  for (std::size_t i = 0; i < crowd.size(); ++i)
-    if (const double weight = crowd.weights().values()[i]; weight > 0 && state(crowd[i]).allFinite()) {
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (const double weight = particles.weights().values()[i]; weight > 0 && state(particles[i]).allFinite()) {
       add(i, weight);
       sum += weight;
     }
@@ -173,18 +173,19 @@ double overFinite(const Particles& crowd, const State& state, const Add& add) {
 
 /// The mean of weighted states, without those that are not finite.
 template <int N, class Particles, class State>
-Vector<N> meanOf(const Particles& crowd, const State& state) {
+Vector<N> meanOf(const Particles& particles, const State& state) {
   Vector<N> mean = Vector<N>::Zero();
-  const double sum = overFinite(crowd, state, [&](std::size_t i, double weight) { mean += weight * state(crowd[i]); });
+  const double sum =
+      overFinite(particles, state, [&](std::size_t i, double weight) { mean += weight * state(particles[i]); });
   return mean / sum;
 }
 
 /// Likewise with their covariance.
 template <int N, class Particles, class State>
-Gaussian<N> momentsOf(const Particles& crowd, const State& state) {
-  Gaussian<N> moments{meanOf<N>(crowd, state), Matrix<N>::Zero()};
-  const double sum = overFinite(crowd, state, [&](std::size_t i, double weight) {
-    const Vector<N> offset = state(crowd[i]) - moments.mean;
+Gaussian<N> momentsOf(const Particles& particles, const State& state) {
+  Gaussian<N> moments{meanOf<N>(particles, state), Matrix<N>::Zero()};
+  const double sum = overFinite(particles, state, [&](std::size_t i, double weight) {
+    const Vector<N> offset = state(particles[i]) - moments.mean;
     moments.covariance.noalias() += weight * offset * offset.transpose();
   });
   moments.covariance /= sum;

@@ -15,12 +15,12 @@ namespace sas_motion {
 /// What the bank makes of one measurement: every hypothesis hears each row, is weighed by how well it foresaw them, and
 /// what all of them think the noise was is learned.
 template <int N, int M>
-class BankJudgement {
+class BankUpdate {
  public:
   using Belief = BankBelief<N>;
   using Options = typename BankKalmanFilter<N>::Options;
 
-  BankJudgement(const Options& options, Belief& belief, const LinearMeasurement<N, M>& z)
+  BankUpdate(const Options& options, Belief& belief, const LinearMeasurement<N, M>& z)
       : options_(options), belief_(belief), z_(z) {
     for (int row = 0; row < M; ++row) {
       place_[row] = channel(row);
