@@ -205,7 +205,7 @@ def test_a_single_run_has_no_interval():
     assert found['kf']['errors']['position']['rms'] == {'value': 1.0, 'low': None, 'high': None}
 
 
-def test_the_bound_is_the_yardstick_of_every_group():
+def test_the_bound_is_the_reference_of_every_group():
     found = law(summarise(plan(), records(plan(), lambda *_: 1.2, heading={'rmse': 0.3, 'p95': 0.4, 'max': 0.5}),
                           {'c': {'heavy': {'position': {'rmse': 1.0}, 'heading': {'rmse': 0.2}}}}))
     assert found['a']['ratios']['bound']['value'] == pytest.approx(1.2)
