@@ -8,8 +8,8 @@
 
 namespace sas_motion {
 
-/// The bootstrap filter, sampling importance resampling: particles move by the model, with noise drawn for each, and
-/// are weighed by how well they explain what is measured. [Gordon1993]
+/// The bootstrap filter (sampling importance resampling): particles move by the model with drawn noise and are weighted
+/// by the likelihood of the measurement. [Gordon1993]
 ///
 /// A step allocates nothing. Its results depend on the seed, not on the number of threads.
 template <int N>
@@ -29,8 +29,7 @@ class ParticleFilter {
     return true;
   }
 
-  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that comes to where numbers are not finite has no weight from
-  /// then on.
+  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that is no longer finite gets the weight 0.
   template <class Function>
   void predict(const Function& f, const Matrix<N>& Q_root) {
     particles_.nextStep();
@@ -44,7 +43,7 @@ class ParticleFilter {
     particles_.forEach([&](std::size_t i) { particles_[i] += root * particles_.template gaussians<N>(i); });
   }
 
-  /// After reading z = h(x) + v, v ~ N(0, R).
+  /// Updates with z = h(x) + v, v ~ N(0, R).
   template <int M, class Function, class Difference = PlainDifference>
   ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R,
                            const Difference& difference = {}) {
@@ -58,14 +57,14 @@ class ParticleFilter {
     return update;
   }
 
-  /// Replaces every particle by a function of it, as to keep a constraint.
+  /// Replaces every particle by a function of it, for example to keep a constraint.
   template <class Function>
   void replace(const Function& function) {
     particles_.forEach([&](std::size_t i) { particles_[i] = function(particles_[i]); });
   }
 
   Gaussian<N> belief() const { return momentsOf<N>(particles_, state); }
-  /// That of belief(), at less cost.
+  /// The mean of belief(), at less cost.
   Vector<N> mean() const { return meanOf<N>(particles_, state); }
   const ParticleSet<Vector<N>>& particles() const { return particles_; }
 

@@ -11,33 +11,32 @@
 
 namespace sas_motion {
 
-/// How the particles of an unscented particle filter are weighed.
+/// The weights of the particles of an unscented particle filter.
 enum class Weighting {
-  Mixture,  ///< each particle is a Gaussian of a mixture, weighed by how it predicts z; drawn from where one is copied
-  OptimalProposal,  ///< each is a point, moved by a draw from p(x | its last point, z)
-  Literal,  ///< each is a point with a filter's covariance of its own, moved by a draw from what that filter says
-            ///< [Merwe2000]
+  Mixture,  ///< a particle is a Gaussian of a mixture, weighted by its predicted density of z; copies are drawn from it
+  OptimalProposal,  ///< a particle is a point, moved by a draw from p(x | its last point, z)
+  Literal,          ///< a particle is a point with a filter of its own, moved by a draw from its posterior [Merwe2000]
 };
 
 struct UnscentedParticleOptions : ParticleOptions {
   Weighting weighting = Weighting::Mixture;
-  double kept = 0.95;  ///< of its covariance by each copy of a Gaussian; the copies are drawn from the rest, so that
-                       ///< the mixture's stays
+  double kept =
+      0.95;  ///< share of a Gaussian's covariance that each copy keeps; the means of the copies are drawn from the rest
 };
 
-/// A particle filter whose particles each run a sigma-point filter; `Filter` does so for a block of them. With
+/// A particle filter whose particles each run a sigma-point filter; `Filter` runs those of a block. With
 /// SigmaPointFilter OneByOne and unscented points it is the UPF [Merwe2000], with SimplexBlocks, or SimplexFilter
 /// OneByOne, the SS-SRUPF [Li2014].
 ///
-/// A step allocates nothing. Its results depend on the seed, not on the number of threads. A single particle is its
-/// filter alone.
+/// A step allocates nothing. Its results depend on the seed, not on the number of threads. With a single particle it is
+/// that filter.
 template <int N, class Filter>
 class UnscentedParticleFilter {
  public:
   using Belief = typename Filter::Belief;
   struct Particle {
     Belief belief;
-    Vector<N> moved;  ///< where the model alone takes the last point
+    Vector<N> moved;  ///< the last point, moved by the model alone
   };
 
   /// Throws std::invalid_argument where there are no particles.
@@ -47,8 +46,8 @@ class UnscentedParticleFilter {
   /// Draws the particles from a belief; false where its covariance is not positive definite.
   bool start(const Gaussian<N>& belief) { return start(belief, belief.covariance); }
 
-  /// Likewise; a Gaussian of the mixture keeps of `own` what a copy keeps and no more, so that a function is near
-  /// enough to linear over it.
+  /// The same, with Gaussians of the mixture no wider than a copy of `own`, so that functions are nearly linear over
+  /// each.
   bool start(const Gaussian<N>& belief, const Matrix<N>& own) {
     const auto root = choleskyLower<N>(belief.covariance), drawn = choleskyLower<N>(belief.covariance - kept_ * own),
                kept = choleskyLower<N>(kept_ * own);
@@ -65,8 +64,7 @@ class UnscentedParticleFilter {
     return true;
   }
 
-  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that comes to where numbers are not finite has no weight from
-  /// then on.
+  /// x' = f(x) + w, w ~ N(0, Q_root Q_root^T). A particle that is no longer finite gets the weight 0.
   template <class Function>
   void predict(const Function& f, const Matrix<N>& Q_root) {
     addSquares<N, N>(noise_root_, Q_root);
@@ -83,8 +81,8 @@ class UnscentedParticleFilter {
     });
   }
 
-  /// Draws a step from N(0, root root^T) for every particle: for noise that is too wide for one Gaussian. A single
-  /// particle is widened by it.
+  /// Draws a step from N(0, root root^T) for every particle, for noise that is too wide for one Gaussian. A single
+  /// particle gets a larger covariance instead.
   void roughen(const Matrix<N>& root) {
     particles_.nextStep();
     particles_.forEach([&](std::size_t i) {
@@ -97,7 +95,7 @@ class UnscentedParticleFilter {
     if (particles_.size() == 1) addSquares<N, N>(noise_root_, root);
   }
 
-  /// After reading z = h(x) + v, v ~ N(0, R).
+  /// Updates with z = h(x) + v, v ~ N(0, R).
   template <int M, class Function, class Difference = PlainDifference>
   ParticleUpdate<M> update(const Vector<M>& z, const Function& h, const Matrix<M>& R,
                            const Difference& difference = {}) {
@@ -120,7 +118,7 @@ class UnscentedParticleFilter {
     return update;
   }
 
-  /// Replaces every particle's state by a function of it, as to keep a constraint.
+  /// Replaces every particle's state by a function of it, for example to keep a constraint.
   template <class Function>
   void replace(const Function& function) {
     particles_.forEach([&](std::size_t i) { move(particles_[i], function(particles_[i].belief.mean)); });
@@ -147,7 +145,7 @@ class UnscentedParticleFilter {
     moments.covariance /= sum;
     return moments;
   }
-  /// That of belief(), at less cost.
+  /// The mean of belief(), at less cost.
   Vector<N> mean() const { return meanOf<N>(particles_, state); }
   const ParticleSet<Particle>& particles() const { return particles_; }
 
@@ -160,7 +158,7 @@ class UnscentedParticleFilter {
     return [this, first](int k) -> Belief& { return particles_[first + static_cast<std::size_t>(k)].belief; };
   }
 
-  /// What the heaviest particle's covariance becomes in z: the particles' are much alike.
+  /// The covariance of h within the particle of largest weight, which stands for all of them.
   template <int M, class Function, class Difference>
   Matrix<M> ownCovariance(const Function& h, const Difference& difference) const {
     const auto image =
@@ -169,7 +167,7 @@ class UnscentedParticleFilter {
                  : Matrix<M>(Matrix<M>::Zero());
   }
 
-  /// Draws a particle from what its filter says, and returns the logarithm of what its weight is multiplied by.
+  /// Draws a particle from the posterior of its filter. Returns the logarithm of the factor of its weight.
   template <int M, class Function, class Difference>
   double draw(std::size_t i, const Vector<M>& z, const Function& h, const Matrix<M>& R_root,
               const Difference& difference) {
@@ -185,7 +183,7 @@ class UnscentedParticleFilter {
 
   static void move(Particle& particle, const Vector<N>& x) { particle.moved = particle.belief.mean = x; }
 
-  /// Draws one of several copies from its parent's Gaussian and narrows it, so that together they have the parent's
+  /// Draws the mean of a copy from its parent's Gaussian and narrows it, so that all copies together have the parent's
   /// covariance.
   void split(Particle& particle, std::size_t i) const {
     const auto root = Form::root(particle.belief);
@@ -198,7 +196,7 @@ class UnscentedParticleFilter {
   Weighting weighting_;
   double kept_;
   ParticleSet<Particle> particles_;
-  Matrix<N> noise_root_ = Matrix<N>::Zero();  // of all since the last update
+  Matrix<N> noise_root_ = Matrix<N>::Zero();  // of all predictions since the last update
 };
 
 template <class Filter>
