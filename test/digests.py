@@ -4,7 +4,7 @@
 """Digests of what the tools answer, field by field: shows that a change of the code's structure changed no figure.
 
 usage: digests.py record OUT.json [--only PART...]          with the devel space sourced
-       digests.py compare BEFORE.json AFTER.json [--renamed OLD=NEW...]    exit status 1 where something differs
+       digests.py compare BEFORE.json AFTER.json [--renamed OLD=NEW...]    OLD: a regular expression; exit status 1 where something differs
 
 Parts: suites (results and bounds of three seeds), bags (what simulate writes, what reprocess answers with every estimator, what sas_motion_metrics scores,
 what focus measures) and calibration. Times, versions and hashes of configurations are left out.
@@ -16,6 +16,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -182,7 +183,7 @@ def record(out, only):
 def renamed(path, names):
     """A field's path with estimators, or other parts of it, by their new names."""
     for old, new in names:
-        path = path.replace(old, new)
+        path = re.sub(old, new, path)
     return path
 
 
@@ -212,7 +213,7 @@ def main():
     if options.command == "record":
         os.environ.setdefault("PYTHONDONTWRITEBYTECODE", "1")
         return record(options.out, options.only)
-    return sys.exit(compare(options.before, options.after, [pair.split("=") for pair in options.renamed]))
+    return sys.exit(compare(options.before, options.after, [pair.split("=", 1) for pair in options.renamed]))
 
 
 if __name__ == "__main__":
