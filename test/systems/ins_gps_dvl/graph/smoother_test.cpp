@@ -14,7 +14,6 @@
 namespace sas_motion::ins {
 namespace {
 
-using testing::configOf;
 using testing::outputOf;
 using testing::positionError;
 using testing::recordingOf;
