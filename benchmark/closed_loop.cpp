@@ -41,11 +41,11 @@ constexpr double kSkip = 120;   // until the filters have settled [s]
 constexpr double kNoise = 0.7;  // of a raw sample
 constexpr double kBeyondBeam =
     9;  // of bottom that a ping is given fore and aft, where the beam's first null is 6 m off at the far range [m]
-const std::string kBelief = "smooth_robust_ckf27";
-const std::array<std::string, 3> kEstimators{"robust_ckf27", kBelief, "batch"};
+const std::string kBelief = "steady_robust_kf27";
+const std::array<std::string, 3> kEstimators{"robust_kf27", kBelief, "batch"};
 using Measures = std::map<std::string, std::vector<double>>;
 
-/// Eight receivers 0.1 m apart, as micronavigation_accuracy has it, at the inertial unit: simulated receivers do not
+/// Eight receivers 0.1 m apart, as micronavigation_accuracy has it, at the IMU: simulated receivers do not
 /// turn while the echo is under way.
 FocusSettings micronavigationSettings(double window) {
   FocusSettings settings;
@@ -95,7 +95,7 @@ Followed follow(const Survey& survey, const std::string& name, const Recording& 
   for (const auto& aperture : survey.apertures)
     result.apertures.emplace_back(aperture, survey.images.aperture.longest_gap);
   const auto estimator = makeAnyEstimator(name, configOf(survey.scenario));
-  replay(*estimator, recording, [&](const Output& output) {
+  replay(*estimator, recording, [&](const ins::Output& output) {
     for (const auto& solution : output.solutions) {
       const Stamp stamp = solution.stamp;
       result.window.add(stamp, solution.state);

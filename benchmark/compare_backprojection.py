@@ -7,7 +7,7 @@ usage: compare_backprojection.py TOOLS [LINES ROWS COLUMNS REPEATS]    TOOLS: fo
 Runs in an environment with peers/requirements_imaging.txt; where FastSAR is not installed it says so, measures the rest and has exit status 2. Exit
 status 1 where an image is further from double than its bound.
 
-Rates are 10^6 lines times pixels a second of CPU time, the best of the repeats, all with upsampling of the lines. The yardstick is NumPy's image of the middle
+Rates are 10^6 lines times pixels a second of CPU time, the best of the repeats, all with upsampling of the lines. The exact image is NumPy's image of the middle
 of the grid from lines upsampled 64 times, where linear reading errs by less than -85 dB. FastSAR compiles itself for this machine; FFBP_CPU_FLAGS="-O3
 -march=x86-64-v3" makes it do so for AVX2.
 """
@@ -31,7 +31,7 @@ except ImportError as why:
 
 EXACT = -60  # of our image [dB]
 AGREE = -50  # of the peers' images and of what they differ from ours [dB]: linear reading of lines upsampled 8 times without more errs by that
-YARDSTICK_UPSAMPLING = 64
+EXACT_UPSAMPLING = 64
 NUMPY_UPSAMPLING = 8
 
 
@@ -86,14 +86,14 @@ def main():
         folder = pathlib.Path(folder)
         problem, ours, reference = Problem(folder, description), np.load(folder / 'image.npy'), np.load(folder / 'reference.npy')
     middle = tuple(slice((whole - part) // 2, (whole + part) // 2) for whole, part in zip(ours.shape, reference.shape))
-    yardstick = numpy_backprojection.image(problem, problem.points[middle], YARDSTICK_UPSAMPLING)
+    exact = numpy_backprojection.image(problem, problem.points[middle], EXACT_UPSAMPLING)
 
     best = max(description['rates'].values())
     missed = 0
 
     def row(name, rate, image, bound):
         nonlocal missed
-        error, from_ours = decibels(image[middle] if image.shape == ours.shape else image, yardstick), decibels(image, ours) if bound == AGREE else None
+        error, from_ours = decibels(image[middle] if image.shape == ours.shape else image, exact), decibels(image, ours) if bound == AGREE else None
         agrees = error <= bound and (from_ours is None or from_ours <= AGREE)
         missed += not agrees
         speed = f'{rate:>16.0f}{best / rate:>15.2f}' if rate else 31 * ' '

@@ -4,7 +4,7 @@
 """How long the filter nodelets take from callback to publication at 100 messages a second, by their own diagnostics.
 
 Alone: the nodelet (kf and robust_kf), rosbag play, and a recorder of both odometries. Together: compare.launch, which adds the smoother in the
-same manager and a recorder of everything. Ins, sins: the nodelet of INS, GPS and DVL (robust_ckf27), of SINS and DVL (ss_srupf), alone. usage: nodelet_latency.py TOOLS OUT SECONDS [RUNS]
+same manager and a recorder of everything. Ins, sins: the nodelet of INS, GPS and DVL (robust_kf27), of SINS and DVL (ss_srupf), alone. usage: nodelet_latency.py TOOLS OUT SECONDS [RUNS]
 """
 import contextlib
 import os
@@ -116,7 +116,7 @@ def main():
         subprocess.run([f'{tools}/simulate', f'{root}/{scenario}', '-o', file, '--duration', str(seconds)], check=True)
 
     def ins(_, recorded):
-        return alone(ins_bag, recorded, 'InsFilterNodelet', '[robust_ckf27]', 1)
+        return alone(ins_bag, recorded, 'InsFilterNodelet', '[robust_kf27]', 1)
 
     def sins(_, recorded):
         return alone(sins_bag, recorded, 'InsFilterNodelet', '[ss_srupf]', 1, f'{root}/config/sins_dvl.yaml')

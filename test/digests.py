@@ -4,7 +4,7 @@
 """Digests of what the tools answer, field by field: shows that a change of the code's structure changed no figure.
 
 usage: digests.py record OUT.json [--only PART...]          with the devel space sourced
-       digests.py compare BEFORE.json AFTER.json [--renamed OLD=NEW...]    exit status 1 where something differs
+       digests.py compare BEFORE.json AFTER.json [--renamed OLD=NEW...]    OLD: a regular expression; exit status 1 where something differs
 
 Parts: suites (results and bounds of three seeds), bags (what simulate writes, what reprocess answers with every estimator, what sas_motion_metrics scores,
 what focus measures) and calibration. Times, versions and hashes of configurations are left out.
@@ -16,6 +16,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -24,11 +25,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 SUITES = {"smoke": 3, "eight_laws": 3, "asynchronous": 3, "ins": 3, "imaging": 3, "sins_dvl": 3, "usbl": 3}
 LEFT_OUT = {"version", "config_hash", "cost", "source", "bag", "config", "input", "identity", "seq"}
 TOWFISH = ["kf", "gated_kf", "robust_kf", "student_t_kf", "mckf", "mixture_kf", "bank_kf", "robust_kf_cauchy", "rts", "batch", "gnc", "fixed_lag"]
-INS = ["ins", "gps", "dvl", "ckf27", "gps_ckf27", "dvl_ckf27", "open_loop_ckf27", "robust_ckf27", "gps_robust_ckf27", "dvl_robust_ckf27",
-       "smooth_ckf27", "smooth_robust_ckf27", "batch", "fixed_lag"]
-SINS = ["pf", "upf", "ss_srupf", "robust_ss_srupf", "smooth_ss_srupf", "ss_srupf_optimal", "ss_srupf_literal", "ss_srukf", "ukf", "ckf27", "robust_ckf27",
+INS = ["ins", "gnss_alone", "dvl", "kf27", "gnss_kf27", "dvl_kf27", "open_loop_kf27", "robust_kf27", "gnss_robust_kf27", "dvl_robust_kf27",
+       "steady_kf27", "steady_robust_kf27", "batch", "fixed_lag"]
+SINS = ["pf", "upf", "ss_srupf", "robust_ss_srupf", "steady_ss_srupf", "ss_srupf_optimal", "ss_srupf_literal", "ss_srukf", "ukf", "kf27", "robust_kf27",
         "batch", "fixed_lag"]
-FOCUSED = ["robust_ckf27", "smooth_robust_ckf27", "batch"]
+FOCUSED = ["robust_kf27", "steady_robust_kf27", "batch"]
 SIMULATED = {  # name: scenario, seconds, configuration, estimators
     "towfish": ("survey_outliers_20.yaml", 120, None, TOWFISH),
     "ins": ("ins/survey.yaml", 120, "ins_gps_dvl.yaml", INS),
@@ -182,7 +183,7 @@ def record(out, only):
 def renamed(path, names):
     """A field's path with estimators, or other parts of it, by their new names."""
     for old, new in names:
-        path = path.replace(old, new)
+        path = re.sub(old, new, path)
     return path
 
 
@@ -212,7 +213,7 @@ def main():
     if options.command == "record":
         os.environ.setdefault("PYTHONDONTWRITEBYTECODE", "1")
         return record(options.out, options.only)
-    return sys.exit(compare(options.before, options.after, [pair.split("=") for pair in options.renamed]))
+    return sys.exit(compare(options.before, options.after, [pair.split("=", 1) for pair in options.renamed]))
 
 
 if __name__ == "__main__":

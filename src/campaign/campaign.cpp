@@ -6,6 +6,8 @@
 
 #include <filesystem>
 
+#include "sas_motion/estimate/old_names.hpp"
+
 namespace sas_motion {
 
 LawInfo lawInfo(const std::string& name, const NoiseMix& measurement, const NoiseMix& process) {
@@ -41,13 +43,15 @@ void Campaign::readDuration(YamlSection& yaml, double of_scenario) {
   yaml.number("duration", duration, {1, 1e6});
 }
 
-void Campaign::readScoring(YamlSection& yaml, double default_skip,
-                           const std::function<bool(const std::string&)>& known) {
+void Campaign::readScoring(YamlSection& yaml, double default_skip, const std::function<bool(const std::string&)>& known,
+                           const std::function<std::string(const std::string&)>& current_name) {
   skip = default_skip < 0 ? std::max(0.0, duration + default_skip) : default_skip;
   yaml.number("skip", skip, {0, 1e6});
   if (skip >= duration)
     yaml.fail("skip", fmt::format("is {} but must be less than a run, which lasts {} s", skip, duration));
   yaml.texts("estimators", estimators);
+  if (current_name)
+    for (const auto& sentence : replaceOldNames(estimators, current_name)) fmt::print(stderr, "{}\n", sentence);
   if (estimators.empty()) yaml.fail("estimators", "is missing; list at least one");
   for (const auto& name : estimators)
     if (!known(name)) yaml.fail("estimators", fmt::format("names '{}', which is no estimator of this system", name));

@@ -68,7 +68,9 @@ class Campaign {
   void readDuration(YamlSection& yaml, double of_scenario);
   /// Reads the start that is not scored, and the estimators, each of which must be known. A negative `default_skip`
   /// counts from the end of a run.
-  void readScoring(YamlSection& yaml, double default_skip, const std::function<bool(const std::string&)>& known);
+  /// `current_name` gives the present name of an estimator that had another one before.
+  void readScoring(YamlSection& yaml, double default_skip, const std::function<bool(const std::string&)>& known,
+                   const std::function<std::string(const std::string&)>& current_name = nullptr);
   /// The path of a file that a required key names.
   static std::string fileOf(YamlSection& yaml, const char* key, const std::string& folder);
   /// Reads the laws by `read(section, name, scenario)`, which changes a copy of the scenario. Returns the scenario

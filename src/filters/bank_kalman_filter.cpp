@@ -9,8 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "filters/bank_judgement.hpp"
 #include "filters/bank_moments.hpp"
+#include "filters/bank_update.hpp"
 #include "filters/instantiate.hpp"
 #include "sas_motion/config/yaml_vector.hpp"
 #include "sas_motion/filters/conditioning.hpp"
@@ -18,7 +18,7 @@
 namespace sas_motion {
 namespace {
 
-constexpr double kPriorEpochs = 15;  // that the option's jump probability is worth: less than one jump's
+constexpr double kPriorEpochs = 15;  // that the option's jump probability counts as: less than one jump
 constexpr double kFewestJumps = 0.1, kMostJumps = 5;  // of the jump probability
 
 void require(bool holds, const char* key, double value, const char* must) {
@@ -99,7 +99,8 @@ void BankKalmanFilter<N>::openEpoch(Belief& belief, double time) const {
   if (epochs < 1 - 1e-6) return;
   auto& bank = belief.hypotheses;
   belief.epochs = std::min(belief.epochs + 1, kBankMemory);
-  // what jumped eight openings ago and not since: a little too few; an opening after a pause counts for its epochs
+  // the share that jumped eight openings ago and not since, slightly too small; an opening after a pause counts for its
+  // epochs
   belief.jump_probability += (bank[kOldest].weight / epochs - belief.jump_probability) / belief.epochs;
   belief.jump_probability = std::clamp(belief.jump_probability, kFewestJumps * options_.jump_probability,
                                        kMostJumps * options_.jump_probability);
@@ -108,7 +109,7 @@ void BankKalmanFilter<N>::openEpoch(Belief& belief, double time) const {
   BankHypothesis<N> any;
   for (const auto& h : bank) absorb(any, h);
   absorb(bank[0], bank[kOldest]);
-  symmetrize(bank[0].covariance);  // it lives for ever
+  symmetrize(bank[0].covariance);  // it is kept for ever
   for (std::size_t age = kOldest; age > 1; --age) bank[age] = bank[age - 1];
   bank[1] = any;
   bank[1].covariance += (options_.jump_scale - 1) / epochs * belief.epoch_noise;
@@ -127,7 +128,7 @@ Update<BankBelief<N>, M> BankKalmanFilter<N>::update(const Belief& prior, const 
     result.belief.epoch_begin = z.time;
   }
   openEpoch(result.belief, z.time);
-  result.weights = BankJudgement<N, M>(options_, result.belief, z).weights();
+  result.weights = BankUpdate<N, M>(options_, result.belief, z).weights();
   summarize(result.belief);
   if (!result.belief.summary.mean.allFinite() || !result.belief.summary.covariance.allFinite()) {
     result.belief = prior;

@@ -7,10 +7,10 @@
 
 namespace sas_motion {
 
-constexpr double kBankMemory = 300;         // readings or epochs after which old ones are forgotten
-constexpr double kBankLeastWeight = 1e-30;  // a hypothesis can always come back
+constexpr double kBankMemory = 300;         // readings or epochs in an average at most
+constexpr double kBankLeastWeight = 1e-30;  // so that every hypothesis can gain weight again
 
-/// Adds a hypothesis of positive weight to one that has the moments of those before it.
+/// Adds a hypothesis of positive weight to one with the moments of several.
 template <int N>
 void absorb(BankHypothesis<N>& sum, const BankHypothesis<N>& part) {
   sum.weight += part.weight;
@@ -27,7 +27,7 @@ void absorb(BankHypothesis<N>& sum, const BankHypothesis<N>& part) {
   }
 }
 
-/// Moves the bank's mean to the mean of its hypotheses and sums them up.
+/// Computes the bank's mean and covariance from its hypotheses and refers them to the new mean.
 template <int N>
 void summarize(BankBelief<N>& belief) {
   Vector<N> shift = Vector<N>::Zero();

@@ -8,26 +8,26 @@
 
 namespace sas_motion {
 
-/// What one hypothesis of the bank makes of one row of a reading.
+/// The mixture of one row of a reading under one hypothesis of the bank.
 ///
-/// The innovation's density is sum p_j N(0, v + s_j r), with the wide scales made likelier by `stickiness`, and with
-/// part of them expected to repeat the last residual. Only the narrow scales inform the state.
+/// The innovation's density is sum p_j N(0, v + s_j r), where `stickiness` makes the wide scales likelier and a part of
+/// them repeats the last residual. Only the narrow scales update the state.
 struct BankReading {
   static constexpr int kScales = 4;
-  static constexpr int kNarrow = 2;  ///< scales that inform; the others are outliers
+  static constexpr int kNarrow = 2;  ///< scales that update the state; the others are outliers
   using Scales = std::array<double, kScales>;
 
   double likelihood = 0;
-  double inverse = 0;          ///< E[1 / S] of what informs
-  double inverse_squared = 0;  ///< E[1 / S^2] of what informs
+  double inverse = 0;          ///< E[1 / S] over the narrow scales
+  double inverse_squared = 0;  ///< E[1 / S^2] over the narrow scales
   double doubt = 0;            ///< probability that it is an outlier
-  double agreement = 0;        ///< whether an outlier would rather be the last one again than a new one
+  double agreement = 0;        ///< probability that an outlier repeats the last one
   Scales shares{};             ///< posterior probabilities of the scales
 
   struct Expectation {
     Scales scales, probabilities;
     double sticky, repeat;
-    double stickiness;  ///< 0 to 1: how much the reading before says of this one
+    double stickiness;  ///< 0 to 1: how much the previous reading determines this one
     double residual;    ///< the last one
     double growth;      ///< of the prediction's variance since then
   };
@@ -58,7 +58,7 @@ struct BankReading {
   }
 
  private:
-  static constexpr double kTiny = 1e-300;  // what no scale explains leaves all hypotheses as they are
+  static constexpr double kTiny = 1e-300;  // avoids 0 / 0 where no scale explains the innovation
   static double normal(double d, double variance) { return std::exp(-0.5 * d * d / variance) / std::sqrt(variance); }
 };
 

@@ -11,12 +11,12 @@
 namespace sas_motion {
 namespace {
 
-constexpr double kPriorCount = 20;     // readings that the assumption of good ones is worth
-constexpr double kMemory = 300;        // readings after which old ones are forgotten
-constexpr double kLargest = 1;         // variance of a prediction over R
-constexpr double kLeastSlope = 1e-12;  // a negative one, of a loss that redescends, counts as none
+constexpr double kPriorCount = 20;     // readings that the initial values count as
+constexpr double kMemory = 300;        // readings in an average at most
+constexpr double kLargest = 1;         // variance of a prediction over R that the averages apply to
+constexpr double kLeastSlope = 1e-12;  // of a redescending loss the slope can be negative
 
-/// Takes a reading into a row's averages. `t` is the variance of its prediction over R, as the filter has it.
+/// Adds a reading to a row's averages. `t` is the variance of its prediction over R by the filter's own covariance.
 void learn(LearnedInfluence& row, const Influence& influence, double t) {
   if (row.readings == 0) row.readings = kPriorCount;
   row.readings = std::min(row.readings + 1, kMemory);
@@ -28,17 +28,16 @@ void learn(LearnedInfluence& row, const Influence& influence, double t) {
   average(row.gain, gain * gain);
 }
 
-/// The noise that a Kalman filter's gain would have to let through, over R, to do what the row's influence does. `s` is
-/// as `t`, calibrated. After an outage t is large. The averages, of readings at a smaller one, are then taken at the
-/// largest that they can stand for.
+/// The noise over R with which a Kalman filter's gain has the same effect as the row's influence. `s` is `t` by the
+/// calibrated covariance. After an outage t is large, but the averages are of readings at a smaller one, so t is
+/// limited.
 double noiseThrough(const LearnedInfluence& row, double t, double s) {
   if (t > kLargest) {
     s *= kLargest / t;
     t = kLargest;
   }
-  const double square =
-      std::min(row.believed, (1 + s) / (1 + t)) + row.clipped;  // readings that are believed do not speak against R
-  return std::max(row.gain * row.gain, (1 + t) * square - s * row.gain);  // and none is better than a good one
+  const double square = std::min(row.believed, (1 + s) / (1 + t)) + row.clipped;  // accepted readings do not increase R
+  return std::max(row.gain * row.gain, (1 + t) * square - s * row.gain);  // and no reading is better than a good one
 }
 
 }  // namespace
@@ -77,7 +76,7 @@ Update<CalibratedBelief<N>, M> CalibratedFilter<Filter, N>::update(const Belief&
   Vector<M> noise;
   for (int row = 0; row < M; ++row) {
     const double R = z.R(row, row),
-                 after = t(row) / (1 + t(row) * inner.weights(row));  // variance of the residual's prediction, over R
+                 after = t(row) / (1 + t(row) * inner.weights(row));  // variance of the predicted residual, over R
     Influence influence = filter_.influence(residual(row) / std::sqrt(R), after);
     influence.slope = std::max(kLeastSlope, influence.slope);
     auto& learned = belief.learned[static_cast<std::size_t>(z.source)][static_cast<std::size_t>(row)];

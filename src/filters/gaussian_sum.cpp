@@ -11,7 +11,7 @@
 namespace sas_motion {
 namespace {
 
-/// All pairs of the hypotheses of two blocks.
+/// Returns all pairs of the hypotheses of two blocks.
 template <int N>
 GaussianBlock<N> product(const GaussianBlock<N>& a, const GaussianBlock<N>& b) {
   GaussianBlock<N> both{a.states + b.states};
@@ -44,7 +44,7 @@ void GaussianBlock<N>::reduce(std::size_t count, double merge) {
   const auto weights = normalize();
   std::vector<Vector<N>> variances, logarithms;
   for (const auto& h : hypotheses) {
-    variances.push_back(h.covariance.diagonal() + (Vector<N>::Ones() - states));  // 1 where there is nothing to compare
+    variances.push_back(h.covariance.diagonal() + (Vector<N>::Ones() - states));  // 1 for states outside the block
     logarithms.push_back(variances.back().array().log());
   }
   std::vector<std::size_t> order(hypotheses.size());
@@ -99,7 +99,7 @@ void GaussianSum<N>::couple(const Matrix<N>& coupling, std::size_t count, double
       blocks[a] = product(blocks[a], blocks[b]);
       blocks[a].reduce(count, merge);
       blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
-      b = a + 1;  // whom the first alone did not touch
+      b = a + 1;  // an earlier block may couple with the enlarged one
     }
 }
 

@@ -15,7 +15,7 @@
 namespace sas_motion {
 namespace {
 
-constexpr double kEpochTolerance = 1e-4;  // of an epoch: stamps since 1970 are no finer in a double
+constexpr double kEpochTolerance = 1e-4;  // of an epoch: the resolution of stamps since 1970 in a double
 
 void requireTerms(const char* what, std::vector<NoiseTerm>& terms) {
   double total = 0;
@@ -91,7 +91,7 @@ bool GaussianSumFilter<N>::modal(std::uint32_t channel) const {
   return options_.mode.rate > 0 && (options_.mode.rows >> channel & 1) != 0;
 }
 
-/// Before its first row a mode has been on for its share of the time: a spell need not wait for the first reading.
+/// Before its first row a mode is on with its stationary probability, since a spell can begin before the first reading.
 template <int N>
 void GaussianSumFilter<N>::askMode(Belief& belief, std::uint32_t channel, double time, GaussianSumRow<N>& row) const {
   const BiasMode& mode = options_.mode;
@@ -142,7 +142,7 @@ void GaussianSumFilter<N>::endEpoch(Belief& belief, double time) const {
   }
   if (!belief.epoch_over || options_.persistence > 0) return;
   for (auto& block : belief.blocks)
-    for (auto& h : block.hypotheses) h.scale = 0;  // of no more consequence
+    for (auto& h : block.hypotheses) h.scale = 0;  // no longer used
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(GaussianSumFilter)

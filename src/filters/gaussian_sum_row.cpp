@@ -11,16 +11,16 @@ namespace sas_motion {
 namespace {
 
 constexpr double kUninformative = 1e6;  // variance of a row with an unknown bias, over the good one
-constexpr double kBeyondReach = 40;     // a branch whose log-weight is so far below the best's is not followed
+constexpr double kBeyondReach = 40;     // branches whose log-weight is further below the largest are dropped
 
-/// A Kalman update that one hypothesis could make of one row.
+/// One Kalman update of one hypothesis with one row.
 struct Branch {
   std::size_t parent;
   double log_weight, innovation, S, variance;
   bool biased;
 };
 
-/// The branches' heaviest, with the heaviest's log-weight taken from each.
+/// Keeps the branches of largest weight and subtracts the largest log-weight.
 void keepHeaviest(std::vector<Branch>& branches, std::size_t count) {
   const auto heavier = [](const Branch& a, const Branch& b) { return a.log_weight > b.log_weight; };
   const double best = std::min_element(branches.begin(), branches.end(), heavier)->log_weight;

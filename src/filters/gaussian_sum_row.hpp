@@ -6,16 +6,16 @@
 
 namespace sas_motion {
 
-/// One row of a measurement, about the summary's mean before any row was fused.
+/// One row of a measurement, about the summary's mean before the first row is fused.
 template <int N>
 struct GaussianSumRow {
   Vector<N> h;
   double innovation, r;
-  std::uint32_t mode = 0;       ///< its bit in Hypothesis::biased; 0: it is never biased
-  double begins = 0, ends = 0;  ///< probabilities that its mode did since it was last asked for
+  std::uint32_t mode = 0;       ///< its bit in Hypothesis::biased; 0: never biased
+  double begins = 0, ends = 0;  ///< probabilities that its mode began or ended since its last evaluation
 
-  /// Branches on all that the row's noise can be, and follows the heaviest branches; the weight is the expected 1 /
-  /// variance.
+  /// Opens a branch for each term of the row's noise and keeps those of largest weight. Returns the row's weight, the
+  /// expected 1 / variance.
   double fuse(GaussianBlock<N>& block, const GaussianSumOptions& options) const;
 };
 

@@ -20,7 +20,7 @@ const Loss& startingLoss() {
   return huber;
 }
 
-/// Re-weighted least squares in the measurement's rows alone: the residual after an update with noise R is nu - H P H^T
+/// Re-weighted least squares in the measurement's rows alone. The residual after an update with noise R is nu - H P H^T
 /// S^{-1} nu.
 template <int M>
 class Reweighting {
@@ -34,13 +34,13 @@ class Reweighting {
         whitening_(noise),
         whitened_(noise.whiten(innovation)) {}
 
-  /// Weighs anew until no weight moves more than the tolerance.
+  /// Iterates until no weight changes by more than the tolerance.
   void iterate(const Loss& loss, int max_iterations, double tolerance) {
     converged = false;
     for (int i = 0; i < max_iterations && !converged; ++i) {
       const Vector<M> next = weightsOf(loss, whitened_);
       const bool same = (next - weights).cwiseAbs().maxCoeff() < tolerance;
-      converged = same && iterations > 0;  // the residual is that of these weights, not yet the prediction's
+      converged = same && iterations > 0;  // in the first pass the residual is still the prediction's
       if (converged) break;
       ++iterations;
       if (!same) {
@@ -175,7 +175,7 @@ Update<Gaussian<N>, M> RobustKalmanFilter<N>::updateBothWeights(const Belief& pr
     result.belief = condition(weighted_prior, projection, R, Sw, z.innovation);
     if (loss.kind() != options_.loss.kind() &&
         (moved < options_.tolerance || result.iterations == options_.max_iterations))
-      loss = options_.loss;  // Huber has settled: redescend from there
+      loss = options_.loss;  // Huber's loss has converged: redescend from there
     else
       result.converged = moved < options_.tolerance;
   }

@@ -67,7 +67,7 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
     R = variance.cwiseQuotient(weights).asDiagonal();
   }
   result.belief = condition(prior, projection, R, Innovation<M>(T + R), z.innovation);
-  result.weights = result.weights.cwiseMin(1.0);  // lambda reaches (nu + 1) / nu; a report's weight ends at 1
+  result.weights = result.weights.cwiseMin(1.0);  // lambda reaches (nu + 1) / nu, but weights end at 1
   result.verdict = verdictFromWeights(result.weights);
   return result;
 }

@@ -10,8 +10,7 @@
 
 namespace sas_motion {
 
-/// Residuals in units of their noise, by the Cholesky root R = L L^T, and the noise that weights turn R into: L W^{-1}
-/// L^T (19).
+/// Whitens residuals by the Cholesky root R = L L^T, and computes the weighted noise L W^{-1} L^T (19).
 template <int M>
 class Whitening {
  public:
@@ -22,7 +21,7 @@ class Whitening {
     const Matrix<M> L = llt_.matrixL();
     return L * weights.cwiseMax(kLeastWeight).cwiseInverse().asDiagonal() * L.transpose();
   }
-  static constexpr double kLeastWeight = 1e-12;  ///< a weight of zero is a noise this much larger in variance
+  static constexpr double kLeastWeight = 1e-12;  ///< replaces a weight of zero, so that the noise stays finite
 
  private:
   Eigen::LLT<Matrix<M>> llt_;

@@ -3,6 +3,7 @@
 #include "ros/server.hpp"
 
 #include "ros/serving.hpp"
+#include "sas_motion/estimate/old_names.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -53,6 +54,8 @@ void EstimatorServer::readParameters(const Open& open, Kind kind) {
   readParameter(own_, "batch", with_batch_);
   names_ = kind == Kind::Filters ? system_->preferred : system_->smoothers;
   readParameter(own_, "estimators", names_);
+  for (const auto& sentence : replaceOldNames(names_, [this](const auto& name) { return system_->currentName(name); }))
+    ROS_WARN_STREAM(sentence);
   try {
     system_->require(names_);
   } catch (const std::runtime_error& error) {

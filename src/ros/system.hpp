@@ -21,6 +21,8 @@ class System {
   Tuning tuning;
 
   virtual bool knows(const std::string& estimator) const;
+  /// What an estimator is called now whose name was another one before; any other name as it is.
+  virtual std::string currentName(const std::string& estimator) const { return estimator; }
   /// Throws std::runtime_error: one sentence where a name is unknown, or is there twice.
   void require(const std::vector<std::string>& names) const;
   /// `live`: keep present answers. `transforms` and this outlive the run.

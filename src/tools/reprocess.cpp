@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // reprocess IN.bag...: estimators over recorded bags.
+#include "bag/reprocess.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +18,7 @@
 #include <thread>
 
 #include "bag/bag_reader.hpp"
-#include "bag/reprocess.hpp"
+#include "sas_motion/estimate/old_names.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "sas_motion/io/fingerprint.hpp"
 #include "systems/registry.hpp"
@@ -128,8 +130,11 @@ void requireKnown(const std::vector<std::string>& estimators, const System& syst
   }
 }
 
-void run(const Options& options) {
+void run(Options options) {
   const auto system = openSystem(options.config);
+  for (const auto& sentence :
+       replaceOldNames(options.estimators, [&](const auto& name) { return system->currentName(name); }))
+    fmt::print(stderr, "reprocess: {}\n", sentence);
   requireKnown(options.estimators, *system);
   requireDistinct(options.bags);
   double duration = 0;

@@ -64,11 +64,9 @@ TEST(Suite, TheSuitesInTheRepositoryCanBeRead) {
   const auto native = [](const std::string&) -> usbl::Fitter {
     return [](const auto& problem, const auto& options) { return usbl::fit(problem, options); };
   };
-  const auto any_ins = [](const std::string&, const ins::Config& config) {
-    return ins::makeEstimator("ckf27", config);
-  };
+  const auto any_ins = [](const std::string&, const ins::Config& config) { return ins::makeEstimator("kf27", config); };
   const auto any_sins = [](const std::string&, const sins::Config& config) {
-    return sins::makeEstimator("ckf27", config);
+    return sins::makeEstimator("kf27", config);
   };
   const auto readers = testing::readers(any_ins, any_sins, any, native);
   int suites = 0;

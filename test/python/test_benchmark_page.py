@@ -228,7 +228,7 @@ def test_the_sentences_say_what_the_numbers_say():
             for law, a, b, loose, d in (('clean', 1.02, 1.05, 1.01, 0), ('heavy', 1.04, 1.2, 1.3, 0), ('bursts', 1.3, 1.1, 0.9, 4))}
     campaign = {'groups': ['position'], 'estimators': ['kf', 'a', 'b', 'bayes_reference'], 'laws': laws}
     text = ' '.join(prose.sentences(campaign, {law: {'kf': 0.5, 'a': 1.0} for law in laws}))
-    assert 'a is the most accurate in 2 of 3 laws: 1.04 times the error of bayes_reference (told the law) in the middle law, 1.30 times at worst (bursts)' in text
+    assert 'a is the most accurate in 2 of 3 laws: 1.04 times the error of bayes_reference (knows the law) in the middle law, 1.30 times at worst (bursts)' in text
     assert 'Next is b: 1.10 times in the middle law, 1.20 times at worst (heavy)' in text
     assert 'Below the bound by more than chance: bayes_reference under bursts (0.900)' in text
     assert 'too small in some for kf (NEES/n up to 3.00)' in text

@@ -61,20 +61,20 @@ def test_a_calibration_is_compared_by_its_mounting_angles_and_with_ckf():
 
 def test_images_have_medians_quantiles_and_what_an_aperture_error_costs():
     # GIVEN apertures of imaging campaigns: an estimator whose loss grows with its error from run to run, another without images
-    the_plan = plan(runs=10, estimators=('ckf27', 'gps'))
+    the_plan = plan(runs=10, estimators=('kf27', 'gnss_alone'))
     runs = records(the_plan, lambda *_: 1.0)
     for (_, _, seed), run in runs.items():
         error = 0.004 * seed
-        run['results']['ckf27']['windows'] = [{'start': 120, 'path_wavelengths': error, 'pslr_along': -100 * error, 'islr_along': 0.75 + 10 * error,
+        run['results']['kf27']['windows'] = [{'start': 120, 'path_wavelengths': error, 'pslr_along': -100 * error, 'islr_along': 0.75 + 10 * error,
                                                'pslr_range': 0.0, 'islr_range': 0.0, 'peak_loss': 10 * error}]
-        run['results']['gps']['windows'] = [{'start': 120, 'path_wavelengths': 3.0, 'pslr_along': None}]
+        run['results']['gnss_alone']['windows'] = [{'start': 120, 'path_wavelengths': 3.0, 'pslr_along': None}]
     summary = summarise(the_plan, runs, {})
     # THEN they are summed up, signs only in the median, and the classes part by error
-    image = law(summary)['ckf27']['image']
+    image = law(summary)['kf27']['image']
     assert image['measured'] == image['windows'] == 10
     assert (image['sharp'], image['autofocus_sharp']) == (0.6, 0.0)  # ISLR at most 1 dB worse
     assert image['measures']['pslr_along'] == {'median': pytest.approx(-2.2), 'q90': pytest.approx(np.quantile(0.4 * np.arange(1, 11), 0.9))}
-    assert law(summary)['gps']['image']['measured'] == 0 and law(summary)['gps']['image']['measures']['pslr_along']['median'] is None
+    assert law(summary)['gnss_alone']['image']['measured'] == 0 and law(summary)['gnss_alone']['image']['measures']['pslr_along']['median'] is None
     classes = summary['campaigns']['c']['by_aperture_error']
     assert [(found['below'], found['windows']) for found in classes] == [(1 / 128, 2), (1 / 64, 4), (1 / 32, 8), (1 / 16, 6), (None, 20)]
     assert classes[0]['measures']['peak_loss']['median'] == pytest.approx(0.04)
@@ -205,7 +205,7 @@ def test_a_single_run_has_no_interval():
     assert found['kf']['errors']['position']['rms'] == {'value': 1.0, 'low': None, 'high': None}
 
 
-def test_the_bound_is_the_yardstick_of_every_group():
+def test_the_bound_is_the_reference_of_every_group():
     found = law(summarise(plan(), records(plan(), lambda *_: 1.2, heading={'rmse': 0.3, 'p95': 0.4, 'max': 0.5}),
                           {'c': {'heavy': {'position': {'rmse': 1.0}, 'heading': {'rmse': 0.2}}}}))
     assert found['a']['ratios']['bound']['value'] == pytest.approx(1.2)

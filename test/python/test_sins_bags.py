@@ -10,7 +10,7 @@ import toolbox
 
 SCENARIO = toolbox.SCENARIOS / "sins_dvl" / "large_angle.yaml"
 CONFIG = toolbox.ROOT / "config" / "sins_dvl.yaml"
-NAMES = ["pf", "upf", "ss_srupf", "ss_srukf", "ukf", "smooth_ss_srupf"]
+NAMES = ["pf", "upf", "ss_srupf", "ss_srukf", "ukf", "steady_ss_srupf"]
 SECONDS = 60
 FEW = {"system": "sins_dvl", "particles": {"number": 100}}
 
@@ -71,7 +71,7 @@ def test_the_heading_is_found(reprocessed):
     def off(answer):  # truth may come between the answers
         stamp = answer.header.stamp.to_nsec()
         return heading_off(answer.pose.pose.orientation, truth.get(stamp) or truth[stamp + 10_000_000])
-    for name in ("upf", "ss_srupf", "smooth_ss_srupf"):
+    for name in ("upf", "ss_srupf", "steady_ss_srupf"):
         first, last = topics[f"{name}/odometry"][0], topics[f"{name}/odometry"][-1]
         assert off(first) > 4 and off(last) < 2
     last = topics["ss_srupf/odometry"][-1]

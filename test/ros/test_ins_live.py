@@ -14,7 +14,7 @@ from sas_motion.srv import EnableSensor, GetStateAt
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-NAME = "robust_ckf27"
+NAME = "robust_kf27"
 RATE = 4
 SECONDS = 40
 # Played faster than it was recorded, topics overtake one another by more than a driver would.

@@ -12,32 +12,31 @@
 
 namespace sas_motion {
 
-/// Where the weight of a doubtful row acts: on its noise, or on its reading, which moves to where it is believed. The
-/// same at a fixed point.
+/// What the weight of a row changes: its noise, or its reading, which is moved towards the estimate. Both have the same
+/// fixed point.
 enum class Reweighting { Covariance, Observation };
 
-/// What of a row's normalised squared residual teaches the noise estimate: all; by its weight w all times w, w^2 (the
-/// pseudo-observation) or w^2 over what that is on average of good noise; or what good noise is likely to have made of
-/// it, by a mixture's posterior probability.
+/// The share of a row's normalised squared residual that enters the noise estimate: 1; its weight w; w^2 (the
+/// pseudo-observation); w^2 over its mean for good noise; or the posterior share of good noise in a mixture.
 enum class NoiseIncrement { Raw, Weighted, Pseudo, Consistent, Mixture };
 
 struct AdaptiveCubatureOptions {
-  bool adaptive = false;     ///< estimate the noise by variational Bayes; else believe the stated R
-  std::optional<Loss> loss;  ///< re-weight rows by it; else none
+  bool adaptive = false;     ///< estimate the noise by variational Bayes; else use the stated R
+  std::optional<Loss> loss;  ///< re-weights the rows, if given
   double peak =
       1;  ///< weight of a residual of 0: (nu + 1) / nu of Student's t, whose loss is Cauchy's with c = sqrt(nu)
   Reweighting reweighting = Reweighting::Covariance;
   NoiseIncrement increment = NoiseIncrement::Mixture;
   int iterations = 5;
-  double tolerance = 1e-9;  ///< stop when the mean moves by less than this many standard deviations
-  double rho = 0.97;        ///< what is left of earlier readings' weight in the noise estimate after a step, in (0, 1]
-  double trend = 1;         ///< how much of the noise's latest change goes on, 0 to 1; see VariationalNoise
+  double tolerance = 1e-9;  ///< largest change of the mean at the end, in standard deviations
+  double rho = 0.97;        ///< factor of earlier readings' weight in the noise estimate at each step, in (0, 1]
+  double trend = 1;         ///< 0 to 1, see VariationalNoise
   double clamp = 100;       ///< the noise estimate stays within this factor of the stated variance
-  bool calibrate = false;   ///< report the covariance that the influence of the readings has had, not the filter's own
+  bool calibrate = false;   ///< report a covariance computed from the readings' influence, not the filter's own
 };
 
-/// A state, the noise of each channel over its stated variance, and two covariances: the filter's own, which weighs,
-/// and the one it reports.
+/// A state, the noise of each channel over its stated variance, and the filter's own covariance beside the reported
+/// one.
 template <int N, int M>
 struct AdaptiveBelief {
   Gaussian<N> state;
@@ -76,8 +75,8 @@ class AdaptiveCubatureFilter {
   }
 
   /// The belief after reading z = h(x) + v with v of the stated variances, or some multiple of them. Rows where
-  /// `present` is 0 are left out, and where it is 1 they count; z must be finite and the variance positive in all. The
-  /// report's weights are the rows', its S and NIS with the noise as estimated.
+  /// `present` is 0 are left out; elsewhere it is 1. z must be finite and the variance positive in all rows. The
+  /// weights of the result are those of the rows, S and NIS those with the estimated noise.
   template <class Function, class Difference>
   Update<Belief, M> update(const Belief& prior, const Vector<M>& z, const Vector<M>& variance, const Vector<M>& present,
                            const Function& h, const Difference& difference) const {
@@ -127,11 +126,11 @@ class AdaptiveCubatureFilter {
   using Points = CubatureKalmanFilter<N>;
   using Image = typename Points::template Image<M>;
 
-  /// Where the iteration stands.
+  /// The state of the iteration.
   struct Iterate {
     Gaussian<N> belief;
     VariationalNoise<M> noise;
-    Vector<M> residual, R, weights;  ///< of a row: z - h(x), its noise as estimated, its weight
+    Vector<M> residual, R, weights;  ///< of each row: z - h(x), estimated noise, weight
   };
 
   /// A row's weight at its residual over the estimated noise; absent rows get 1. [ZhangTao, eq 21]
@@ -173,16 +172,16 @@ class AdaptiveCubatureFilter {
     return options_.loss ? Vector<M>(normalised.unaryExpr(&goodShare)) : Vector<M>(Vector<M>::Ones());
   }
 
-  /// The share of a normalised square that teaches of the good noise, where one reading in ten is of noise ten times as
-  /// wide: the expectation of one over the noise's scale. Of good noise alone it is 4 % too low on average.
+  /// The share of a normalised square that is due to good noise, where one reading in ten has ten times the standard
+  /// deviation: the expected inverse of the noise's scale. For good noise alone it is 4 % too low on average.
   static double goodShare(double square) {
     constexpr double kOdds = 0.1 / 0.9, kScale = 100;
     const double bad = kOdds / std::sqrt(kScale) * std::exp(0.5 * square * (1 - 1 / kScale));
     return std::isfinite(bad) ? (1 + bad / kScale) / (1 + bad) : 1 / kScale;
   }
 
-  /// Beside the filter's own covariance another follows its gains, with the noise that the influence of the readings
-  /// let through on average and the feedback that its slope gave: (I - K H) P (I - K H)^T + G V G^T.
+  /// Computes the reported covariance (I - K H) P (I - K H)^T + G V G^T. V is the mean square of the readings'
+  /// influence, K the gain by its mean slope and G the gain by its mean weight.
   void reportCovariance(const Belief& prior, const Image& image, const Iterate& iterate, const Vector<M>& present,
                         Belief& posterior) const {
     if (!options_.calibrate) {
@@ -208,7 +207,7 @@ class AdaptiveCubatureFilter {
     symmetrize(posterior.state.covariance);
   }
 
-  /// A reading that has taught of its own noise pulls less: R grows with it, by its share of the estimate's memory.
+  /// The influence of a reading on the mean. It is smaller with an estimated noise, which the reading itself increases.
   Influence influenceOf(const Iterate& iterate, int row) const {
     const double r = iterate.residual(row) / std::sqrt(iterate.R(row));
     const double weight = options_.loss ? options_.peak * options_.loss->weight(r) : 1;
@@ -219,7 +218,7 @@ class AdaptiveCubatureFilter {
     return {weight * r, slope - own * weight * r * r, weight};
   }
 
-  static constexpr double kLeastWeight = 1e-9;  // a row without any would have infinite noise
+  static constexpr double kLeastWeight = 1e-9;  // a weight of 0 would make the noise infinite
 
   Options options_;
   double consistency_;

@@ -8,21 +8,22 @@
 
 namespace sas_motion {
 
-/// What a row of a sensor has taught of its noise, as its influence shows it: running averages that start from good
-/// readings of which nothing is clipped. All are 1 or 0 there, whatever the leverage.
+/// Running averages of the influence of the readings in one row of a sensor. They start at the values of good,
+/// unclipped readings, which are 1 or 0 whatever the leverage.
 struct LearnedInfluence {
-  double readings = 0;  ///< that the averages rest on
-  double believed = 1;  ///< square of the influence, the share that was believed
-  double clipped = 0;   ///< and the share that was not
+  double readings = 0;  ///< number of readings in the averages
+  double believed = 1;  ///< square of the influence, times the weight
+  double clipped = 0;   ///< square of the influence, times 1 - weight
   double gain = 1;      ///< square of the gain on a change of the reading
 };
 
-/// A robust filter's belief with a calibrated covariance, and the covariance that it weighs its own prediction with.
+/// A robust filter's belief with two covariances: the calibrated one, and the filter's own, which weighs its
+/// prediction.
 template <int N>
 struct CalibratedBelief {
   static constexpr int kMaxRows = 4;
   Gaussian<N> state;
-  bool started = false;  ///< until then the filter's own covariance is the state's
+  bool started = false;  ///< before that `own` is not used
   Matrix<N> own = Matrix<N>::Zero();
   std::array<std::array<LearnedInfluence, kMaxRows>, kMaxSources> learned{};
 };
@@ -43,11 +44,11 @@ void addCovariance(CalibratedBelief<N>& belief, const Matrix<N>& more) {
   belief.own += more;
 }
 
-/// A robust filter whose covariance says how large its errors are [Huber1981; Masreliez1977; Stein1981].
+/// A robust filter that reports a covariance consistent with its errors [Huber1981; Masreliez1977; Stein1981].
 ///
-/// Means and gains are those of the filter to the last bit. Beside its own covariance a second one follows the same
-/// gains with the noise that they let through, by what the influence of the channel's readings has been on average. R
-/// is diagonal. The filter has `calibrates()`, whether it wants this, and `influence(residual, variance)`.
+/// Means and gains are those of the filter to the last bit. A second covariance is propagated with the same gains and
+/// with a noise that is estimated from the average influence of the channel's readings. R is diagonal. The filter
+/// provides `calibrates()`, which switches this on, and `influence(residual, variance)`.
 template <class Filter, int N>
 class CalibratedFilter {
  public:

@@ -11,8 +11,8 @@
 
 namespace sas_motion {
 
-/// S^{-1} of a small symmetric positive definite matrix, by a division where it is 1x1 and by a checked Cholesky where
-/// it is larger.
+/// The inverse of a small symmetric positive definite matrix S: a division for 1x1, a checked Cholesky factorization
+/// for larger ones.
 template <int M>
 class Innovation {
  public:
@@ -42,13 +42,13 @@ class Innovation<1> {
   double inverse_;
 };
 
-/// Whether R is a noise covariance at all: a negative variance can still leave S positive.
+/// Whether R is a valid noise covariance. S can be positive definite although a variance in R is negative.
 template <int M>
 bool positiveDefinite(const Matrix<M>& R) {
   return M == 1 ? R(0, 0) > 0 : Eigen::LLT<Matrix<M>>(R).info() == Eigen::Success;
 }
 
-/// A prior seen from the measurement's rows: P H^T and H P H^T, shared by every iteration of an update.
+/// P H^T and H P H^T of a prior, which all iterations of an update share.
 template <int N, int M>
 struct Projection {
   Projection(const Matrix<N>& P, const Matrix<M, N>& H) : PHt(P * H.transpose()), HPHt(H * PHt) {}
@@ -73,8 +73,8 @@ Gaussian<N> condition(const Gaussian<N>& prior, const Projection<N, M>& projecti
   return posterior;
 }
 
-/// The report of an update before anything is fused: the prior with innovation, S and NIS; Invalid where z is no
-/// measurement.
+/// The result of an update before z is fused: the prior with innovation, S and NIS. The verdict is Invalid where z
+/// cannot be used.
 template <class Belief, int N, int M>
 Update<Belief, M> examine(const Belief& prior, const LinearMeasurement<N, M>& z) {
   Update<Belief, M> result;
@@ -87,9 +87,9 @@ Update<Belief, M> examine(const Belief& prior, const LinearMeasurement<N, M>& z)
   return result;
 }
 
-/// What makes P reach `variance` further in row h: once with the states that go with it, for a drift, and once on its
-/// own, for a jump of the sensor's. With the first alone a jump of the position would be taken for a current of tens of
-/// metres a second. Zero where there is nothing to add.
+/// The covariance that increases h^T P h by `variance` in two ways: along with the correlated states, for a drift, and
+/// in row h alone, for a jump. With the first alone a jump of the position would become a current of tens of metres a
+/// second. Zero where `variance` is not positive.
 template <int N>
 Matrix<N> widening(const Matrix<N>& P, const Vector<N>& h, double variance) {
   const Vector<N> drift = P * h / h.dot(P * h), jump = h / h.squaredNorm();

@@ -15,8 +15,8 @@ struct GatedKalmanOptions {
 /// Reads all keys of a section. Throws ConfigError.
 void readOptions(YamlSection yaml, GatedKalmanOptions& options);
 
-/// Kalman filter that leaves out measurements whose NIS fails a chi-squared gate. Alone it locks out after a jump of
-/// the process; inside a ReacquiringFilter it comes back.
+/// A Kalman filter that rejects measurements whose NIS fails a chi-squared gate. Alone it rejects all measurements
+/// after a jump of the process; inside a ReacquiringFilter it accepts them again.
 template <int N>
 class GatedKalmanFilter {
  public:

@@ -14,7 +14,7 @@ namespace sas_motion {
 /// One Gaussian of a noise law, in units of the good standard deviation.
 struct NoiseTerm {
   double variance = 1;
-  double probability = 1;  ///< taken relative to the sum of all terms' [-]
+  double probability = 1;  ///< relative to the sum over all terms [-]
   double mean = 0;
 };
 
@@ -22,18 +22,18 @@ struct NoiseTerm {
 struct BiasMode {
   double rate = 0;               ///< 0: there are none [1/s]
   double length = 1;             ///< [s]
-  std::optional<double> bias{};  ///< in standard deviations; unknown: the row then says nothing [-]
-  bool common = false;           ///< all rows at once, or each on its own
-  std::uint32_t rows = std::numeric_limits<std::uint32_t>::max();  ///< which have spells: bit 4 source + row
+  std::optional<double> bias{};  ///< in standard deviations; without a value it is unknown and the row is not used [-]
+  bool common = false;           ///< all rows have spells at the same time; else each on its own
+  std::uint32_t rows = std::numeric_limits<std::uint32_t>::max();  ///< rows that have spells: bit 4 source + row
 };
 
-/// What the noise is like, and how much of its history to follow.
+/// The laws of the noise, and the number of hypotheses.
 struct GaussianSumOptions {
   std::vector<NoiseTerm> measurement = std::vector<NoiseTerm>(1);  ///< of each row
   std::vector<NoiseTerm> process =
       std::vector<NoiseTerm>(1);  ///< variances over Q, of all states together; without means
-  double epoch = 0;               ///< for which a process term holds; 0: from one update to the next prediction's [s]
-  double persistence = 0;         ///< probability that the next epoch keeps the term instead of drawing anew [-]
+  double epoch = 0;               ///< duration of a process term; 0: from an update to the next prediction [s]
+  double persistence = 0;         ///< probability that the next epoch keeps the term [-]
   BiasMode mode;
   std::size_t hypotheses = 48;  ///< kept after an update
   std::size_t branches = 160;   ///< followed inside an update
@@ -44,14 +44,13 @@ struct GaussianSumOptions {
 template <int N>
 struct GaussianSumRow;
 
-/// The Bayes filter of known, non-Gaussian noise as far as it can be computed: a reference of what the best causal
-/// estimator reaches.
+/// The Bayes filter of known, non-Gaussian noise as far as it can be computed: a reference for causal estimators.
 ///
-/// Every Gaussian of every noise law makes a branch: a Kalman filter that assumes it. The heaviest are kept, near ones
-/// merged [Sorenson1971]. States that nothing couples (the start, the motion, a row; a scale of the process noise or a
-/// mode of several rows) are followed apart. The scale of the process noise branches at the first prediction of an
-/// epoch; an epoch ends with the first update at or after a multiple of its length. A mode may be on from the start.
-/// Rows are fused one by one, R is diagonal. With one term each this is the Kalman filter.
+/// Every Gaussian of every noise law opens a branch: a Kalman filter that assumes it. The branches of largest weight
+/// are kept, similar ones merged [Sorenson1971]. States are in separate blocks until the start, the motion, a row, a
+/// scale of the process noise or a mode of several rows couples them. The scale of the process noise branches at the
+/// first prediction of an epoch; an epoch ends with the first update at or after a multiple of its length. A mode may
+/// be on from the start. Rows are fused one by one, R is diagonal. With one term each this is the Kalman filter.
 template <int N>
 class GaussianSumFilter {
  public:

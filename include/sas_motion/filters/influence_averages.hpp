@@ -9,11 +9,11 @@
 
 namespace sas_motion {
 
-/// Running averages of what each row's readings have had for influence: they begin with good readings of which nothing
-/// is clipped. The variance of an M-estimate is that of its influence over its mean slope, squared. [Huber1981, 3.2]
+/// Running averages of the influence of each row's readings. They start at the values of good, unclipped readings. The
+/// variance of an M-estimate is that of its influence over its mean slope, squared. [Huber1981, 3.2]
 template <int M>
 struct InfluenceAverages {
-  Vector<M> readings = Vector<M>::Constant(kPrior);  ///< that the averages rest on
+  Vector<M> readings = Vector<M>::Constant(kPrior);  ///< number of readings in the averages
   Vector<M> square = Vector<M>::Ones();              ///< psi^2
   Vector<M> slope = Vector<M>::Ones();               ///< psi'
   Vector<M> weight = Vector<M>::Ones();              ///< psi(r) / r
@@ -28,9 +28,9 @@ struct InfluenceAverages {
   }
 
  private:
-  static constexpr double kPrior = 20;         // readings that the assumption of good ones is worth
+  static constexpr double kPrior = 20;         // readings that the initial values count as
   static constexpr double kMemory = 300;       // readings after which old ones are forgotten
-  static constexpr double kLeastSlope = 0.05;  // a mean of doubtful readings' negative ones counts as next to none
+  static constexpr double kLeastSlope = 0.05;  // a mean slope can be negative where most readings are outliers
 };
 
 }  // namespace sas_motion

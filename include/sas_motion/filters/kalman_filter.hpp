@@ -7,11 +7,11 @@
 
 namespace sas_motion {
 
-/// P^- = F P F^T + Q and the model's mean: the time update that all Gaussian filters share. (9a), (9b) [Zhu2007]
+/// The time update that all Gaussian filters share: P^- = F P F^T + Q and the model's mean. (9a), (9b) [Zhu2007]
 template <int N>
 Gaussian<N> predictGaussian(const Gaussian<N>& belief, const Transition<N>& transition);
 
-/// How a filter that runs unattended is kept from rejecting good measurements for ever, see guarded().
+/// The guard that keeps an unattended filter from rejecting good measurements for ever, see guarded().
 enum class Guard { None, Reacquiring, CalibratedAndReacquiring };
 
 /// The extended Kalman filter, Joseph form. (9) [Zhu2007]

@@ -6,8 +6,7 @@
 
 namespace sas_motion {
 
-/// What a motion model says of one time step, about the belief's mean x: f(x), F = df/dx and the process noise
-/// covariance Q.
+/// One time step of a motion model about the belief's mean x: f(x), F = df/dx and the process noise covariance Q.
 template <int N>
 struct Transition {
   Vector<N> mean;
@@ -15,16 +14,16 @@ struct Transition {
   Matrix<N> Q;
 };
 
-/// What a sensor model says of one measurement z, about the prior mean x: the innovation z - h(x) with angles wrapped,
-/// H = dh/dx, and the covariance R of the good (uncontaminated) noise.
+/// One measurement z by a sensor model about the prior mean x: the innovation z - h(x) with angles wrapped, H = dh/dx,
+/// and the covariance R of the good (uncontaminated) noise.
 template <int N, int M>
 struct LinearMeasurement {
   static constexpr int kRows = M;
   Vector<M> innovation;
   Matrix<M, N> H;
   Matrix<M> R;
-  double time = 0;  ///< when [s], for filters that remember how long something has lasted
-  int source = 0;   ///< which sensor, below kMaxSources, for filters that remember something of each
+  double time = 0;  ///< stamp [s], for filters that measure durations
+  int source = 0;   ///< number of the sensor, below kMaxSources, for filters that keep something of each sensor
 };
 
 constexpr int kMaxSources = 8;

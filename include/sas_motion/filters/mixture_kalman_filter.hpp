@@ -17,12 +17,12 @@ struct MixtureKalmanOptions {
 /// Reads all keys of a section. Throws ConfigError.
 void readOptions(YamlSection yaml, MixtureKalmanOptions& options);
 
-/// Kalman filter with Gaussian scale-mixture measurement noise, sum p_j N(0, s_j R) in every row.
+/// A Kalman filter with Gaussian scale-mixture measurement noise, sum p_j N(0, s_j R) in every row.
 ///
 /// The posterior, a mixture of as many Gaussians as there are scales, is collapsed to its mean and covariance row by
 /// row, in closed form: one rank-one update, no iteration [Masreliez1975 for the score-function form; Sorenson1971 for
-/// Gaussian sums]. A reading is judged against prediction and noise together, and the doubt about it stays in the
-/// covariance. R is diagonal. With one scale of 1 this is the Kalman filter.
+/// Gaussian sums]. The weight of a reading depends on the prediction and the noise together, and the posterior
+/// covariance includes the uncertainty of its scale. R is diagonal. With one scale of 1 this is the Kalman filter.
 template <int N>
 class MixtureKalmanFilter {
  public:
@@ -42,8 +42,8 @@ class MixtureKalmanFilter {
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
 
  private:
-  /// Posterior probabilities of the scales for an innovation d with predicted variance v and noise r, as sums over 1 /
-  /// S_j.
+  /// Expectations over the posterior probabilities of the scales, for an innovation d with predicted variance v and
+  /// noise r.
   struct Collapse {
     double inverse;          ///< E[1 / S]
     double inverse_squared;  ///< E[1 / S^2]

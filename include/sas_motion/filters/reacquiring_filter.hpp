@@ -11,15 +11,15 @@
 
 namespace sas_motion {
 
-/// How long a row of a sensor has not been believed, and whether what it says agrees with itself.
+/// How long a row of a sensor has been rejected, and whether its readings agree with each other.
 struct Disbelief {
-  int count = 0;       ///< readings running that were down-weighted or rejected
-  int agreements = 0;  ///< of them, how many agreed with the one before
+  int count = 0;       ///< consecutive readings that were down-weighted or rejected
+  int agreements = 0;  ///< number of them that agreed with the one before
   double since = 0;    ///< time of the first [s]
   double last_innovation = 0;
 };
 
-/// A belief, and the disbelief in each row of each sensor.
+/// A belief and the rejections in each row of each sensor.
 template <class Belief>
 struct WatchedBelief {
   static constexpr int kMaxRows = 4;
@@ -32,13 +32,12 @@ const auto& gaussian(const WatchedBelief<Belief>& belief) {
   return gaussian(belief.state);
 }
 
-/// Any filter that leaves measurements out, with a rule to come back.
+/// A rule that lets any filter accept measurements again.
 ///
-/// A filter that trusts its prediction locks out after a jump, or after an outage in which it drifted further than it
-/// thought: every good measurement then looks like an outlier. So once a row of a sensor has been down-weighted or
-/// rejected for longer than `reset_after`, and its readings agree with each other, as scattered outliers do not, the
-/// covariance grows in that row until the latest innovation is one of its standard deviations, and the measurement is
-/// fused anew.
+/// After a jump, or an outage with more drift than its covariance states, a robust filter takes every good measurement
+/// for an outlier. The rule: once a row of a sensor has been down-weighted or rejected for longer than `reset_after`
+/// while its readings agree with each other, as outliers rarely do, the covariance is increased in that row until the
+/// latest innovation is one standard deviation, and the measurement is fused again.
 template <class Filter, int N>
 class ReacquiringFilter {
  public:
@@ -75,7 +74,7 @@ class ReacquiringFilter {
   }
 
  private:
-  /// Keeps account of one row; true where it is time to believe it again.
+  /// Updates the record of one row. Returns true where its readings are to be accepted again.
   bool lockedOut(Disbelief& doubt, double weight, double innovation, double R, double time) const {
     if (weight >= kDownWeighted) {
       doubt = {};
@@ -94,8 +93,7 @@ class ReacquiringFilter {
   Filter filter_;
   double reset_after_;
 
-  static constexpr double kAgreement =
-      3;  // two readings agree when they differ by less than so many standard deviations
+  static constexpr double kAgreement = 3;  // largest difference of readings that agree, in standard deviations
   static constexpr int kFewest = 10;
   static constexpr int kFewestAgreements = 5;
 };

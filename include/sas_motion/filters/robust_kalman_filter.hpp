@@ -11,26 +11,25 @@ class YamlSection;
 
 struct RobustKalmanOptions {
   Loss loss{LossKind::Huber};      ///< rho2, on measurements whitened by R
-  int max_iterations = 10;         ///< 1 is the paper's single pass
-  double tolerance = 1e-6;         ///< fixed point: no weight moves more [-]
-  bool robustify_process = false;  ///< let W1 act, with the same loss
-  bool calibrate = true;  ///< in a CalibratedFilter, unless W1 acts or a single pass is made: let the covariance say
-                          ///< how large the errors are
+  int max_iterations = 10;         ///< 1: the paper's single pass
+  double tolerance = 1e-6;         ///< largest change of a weight at the fixed point [-]
+  bool robustify_process = false;  ///< estimate W1 too, with the same loss
+  bool calibrate = true;  ///< report a calibrated covariance, see CalibratedFilter; not with W1 or a single pass
 };
 /// Maximum correntropy is the robust filter with a Gaussian kernel exp(-r^2 / 2 bandwidth^2) on both parts: Welsch's
 /// loss with c = bandwidth sqrt(2).
 RobustKalmanOptions correntropyOptions(double bandwidth);
 
-/// Both read all keys of a section. Both throw ConfigError.
+/// Each reads all keys of a section. Both throw ConfigError.
 void readOptions(YamlSection yaml, RobustKalmanOptions& options);
 void readCorrentropyOptions(YamlSection yaml, RobustKalmanOptions& options);
 
-/// Kalman filter by M-estimation [Zhu2007, eq 11-19; Cipra1991].
+/// A Kalman filter by M-estimation [Zhu2007, eq 11-19; Cipra1991].
 ///
-/// Minimises sum rho1(P^{-1/2}(x^- - x)) + sum rho2(R^{-1/2}(z - H x)) (15) by iteratively re-weighted least squares
-/// from the prediction. One iteration takes the weights at the prediction, as the paper does; there the process
-/// residuals are zero, so W1 = I whatever `robustify_process` says. Redescending losses start from Huber's answer,
-/// found with as many iterations. P^{1/2} is the symmetric root.
+/// It minimises sum rho1(P^{-1/2}(x^- - x)) + sum rho2(R^{-1/2}(z - H x)) (15) by iteratively re-weighted least squares
+/// from the prediction. A single iteration takes the weights at the prediction, as the paper does. There the process
+/// residuals are zero, so W1 = I whatever `robustify_process` is. Redescending losses start from the solution by
+/// Huber's loss, found with as many iterations. P^{1/2} is the symmetric root.
 template <int N>
 class RobustKalmanFilter {
  public:
@@ -48,7 +47,7 @@ class RobustKalmanFilter {
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
 
-  /// For CalibratedFilter, which stands on the fixed point with W1 = I.
+  /// For CalibratedFilter, whose equations hold at the fixed point with W1 = I.
   bool calibrates() const { return options_.calibrate && options_.max_iterations > 1 && !options_.robustify_process; }
   Influence influence(double residual, double) const {
     const double weight = options_.loss.weight(residual);

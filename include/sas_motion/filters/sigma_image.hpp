@@ -7,7 +7,7 @@
 
 namespace sas_motion {
 
-/// y - x where nothing wraps.
+/// y - x for values that do not wrap.
 struct PlainDifference {
   template <class V>
   V operator()(const V& y, const V& x) const {
@@ -15,7 +15,7 @@ struct PlainDifference {
   }
 };
 
-/// Where a function sends the points of a belief.
+/// The images of a belief's points by a function.
 template <int N, int M, int Count>
 struct SigmaImage {
   Matrix<N, Count> dX;          ///< the points less the belief's mean
@@ -23,8 +23,8 @@ struct SigmaImage {
   Matrix<M, Count> deviations;  ///< of the function at each point from it
 };
 
-/// The mean of where points landed; they become deviations from it. It is formed of differences from one of them, or
-/// another near them, so that points on both sides of +-pi average rightly.
+/// Returns the mean of the images and replaces them by their deviations from it. The mean is formed from differences to
+/// a reference near them, so that images on both sides of +-pi are averaged correctly.
 template <int M, int N, int Count, class Difference>
 Vector<M> average(const SigmaPoints<N, Count>& points, const Vector<M>& reference, Matrix<M, Count>& landed,
                   const Difference& difference) {
@@ -35,7 +35,7 @@ Vector<M> average(const SigmaPoints<N, Count>& points, const Vector<M>& referenc
   return mean;
 }
 
-/// Sends x + dX through `function`. The reference of the mean is the image of x where that is a point.
+/// Applies `function` to x + dX. The reference of the mean is the image of x.
 template <int M, int N, int Count, class Function, class Difference>
 SigmaImage<N, M, Count> imageOf(const SigmaPoints<N, Count>& points, const Vector<N>& x, const Matrix<N, Count>& dX,
                                 const Function& function, const Difference& difference) {
@@ -47,9 +47,8 @@ SigmaImage<N, M, Count> imageOf(const SigmaPoints<N, Count>& points, const Vecto
   return image;
 }
 
-/// The belief after reading z = h(x) + v by a filter that projects the prior's points and conditions on where they
-/// land. The innovation is z less the mean of h over the prior, not h of its mean; `noise` is what the filter's
-/// condition() takes.
+/// Updates a belief with z = h(x) + v by a filter that projects the prior's points and conditions on their images. The
+/// innovation is z less the mean of h over the prior, not h of its mean. `noise` is passed to the filter's condition().
 template <int M, class Filter, class Function, class Difference>
 Update<typename Filter::Belief, M> projectAndCondition(const Filter& filter, const typename Filter::Belief& prior,
                                                        const Vector<M>& z, const Function& h, const Matrix<M>& noise,

@@ -9,12 +9,12 @@
 
 namespace sas_motion {
 
-/// A Gaussian filter that needs no Jacobians: it sends points through f and h and fits a Gaussian to where they land.
-/// With cubature points this is the CKF [Arasaratnam2009], with unscented points the UKF [Julier2004].
+/// A Gaussian filter without Jacobians: it maps points by f and h and fits a Gaussian to their images. With cubature
+/// points this is the CKF [Arasaratnam2009], with unscented points the UKF [Julier2004].
 ///
-/// f and h take and return fixed-size vectors. `difference(y, x)` is y - x with angles wrapped; means are formed of
-/// differences from the image of the mean, so that points on both sides of +-pi average rightly. Noise is additive and
-/// the points are drawn anew for every update.
+/// f and h take and return fixed-size vectors. `difference(y, x)` is y - x with angles wrapped; means are formed from
+/// differences to the image of the mean, so that points on both sides of +-pi are averaged correctly. Noise is
+/// additive, and every update forms new points.
 template <int N, int Count>
 class SigmaPointFilter {
  public:
@@ -39,7 +39,7 @@ class SigmaPointFilter {
   template <int M>
   using Image = SigmaImage<N, M, Count>;
 
-  /// Nothing where the prior's covariance is not positive definite.
+  /// Maps the prior's points by h. Returns nothing where the prior's covariance is not positive definite.
   template <int M, class Function, class Difference = PlainDifference>
   std::optional<Image<M>> project(const Belief& prior, const Function& h, const Difference& difference = {}) const {
     const auto L = choleskyLower<N>(prior.covariance);
@@ -47,7 +47,7 @@ class SigmaPointFilter {
     return imageOf<M>(points_, prior.mean, Matrix<N, Count>(*L * points_.offsets), h, difference);
   }
 
-  /// Fuses an innovation, z less the image's mean, with noise covariance R. The report holds the innovation, its S and
+  /// Fuses an innovation, z less the image's mean, with noise covariance R. The result holds the innovation, its S and
   /// NIS.
   template <int M>
   Update<Belief, M> condition(const Belief& prior, const Image<M>& image, const Vector<M>& innovation,
@@ -63,8 +63,8 @@ class SigmaPointFilter {
     if (!S.valid() || !std::isfinite(result.nis)) return result;
 
     const Matrix<N, M> K = S.solve(secondMoment<M, N>(image.deviations, image.dX)).transpose();
-    // P - K S K^T as a sum of squares, as Joseph's form is for a linear h: with weights that are not negative it cannot
-    // lose its sign.
+    // P - K S K^T as a sum of squares, like Joseph's form of a linear h. With weights that are not negative it stays
+    // positive semidefinite.
     const Matrix<N, Count> residuals = image.dX - K * image.deviations;
     Belief posterior{prior.mean + K * innovation, secondMoment<N, N>(residuals, residuals) + K * R * K.transpose()};
     symmetrize(posterior.covariance);

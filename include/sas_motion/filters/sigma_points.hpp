@@ -10,8 +10,7 @@
 
 namespace sas_motion {
 
-/// Points that stand for a standard normal N-vector: their weighted mean is 0 and their weighted covariance the
-/// identity.
+/// Points that represent a standard normal N-vector: their weighted mean is 0, their weighted covariance the identity.
 template <int N, int Count>
 struct SigmaPoints {
   Matrix<N, Count> offsets;          ///< xi, a point each column; x + L xi are the points of N(x, L L^T)
@@ -30,9 +29,9 @@ SigmaPoints<N, 2 * N> cubaturePoints() {
   return points;
 }
 
-/// Of the scaled unscented transform.
+/// Options of the scaled unscented transform.
 struct UnscentedOptions {
-  double alpha = 1;  ///< spread of the points [-]; far below 1 the weights are huge and digits are lost
+  double alpha = 1;  ///< spread of the points [-]; far below 1 the large weights lose digits
   double beta = 2;   ///< 2 is best for a normal distribution [-]
   double kappa = 0;  ///< [-]
 };
@@ -55,18 +54,17 @@ SigmaPoints<N, 2 * N + 1> unscentedPoints(const UnscentedOptions& options) {
   return points;
 }
 
-/// Those of the spherical simplex.
+/// The points of the spherical simplex, a type of their own for spread().
 template <int N>
 struct SimplexPoints : SigmaPoints<N, N + 2> {};
 
-/// L xi.
+/// The products L xi for all points.
 template <int N, int Count>
 Matrix<N, Count> spread(const SigmaPoints<N, Count>& points, const Matrix<N>& L) {
   return L * points.offsets;
 }
 
-/// The same in N^2 operations: a corner of the simplex has -c in all dimensions after its own, and its own is one
-/// column of L.
+/// The same in N^2 operations: in each dimension all earlier corners of the simplex share the coordinate -c.
 template <int N>
 Matrix<N, N + 2> spread(const SimplexPoints<N>& points, const Matrix<N>& L) {
   Matrix<N, N + 2> corners;
@@ -82,8 +80,8 @@ Matrix<N, N + 2> spread(const SimplexPoints<N>& points, const Matrix<N>& L) {
 }
 
 /// The N + 2 points of the spherical simplex: one at the mean, with weight W0 in [0, 1), and N + 1 at the corners of a
-/// simplex about it, sqrt(N / (1 - W0)) away. About half as many as the unscented ones, right to the second degree.
-/// Throws std::invalid_argument for another W0. [Julier2003]
+/// simplex about it, sqrt(N / (1 - W0)) away. They are about half as many as the unscented points and exact to the
+/// second degree. Throws std::invalid_argument for another W0. [Julier2003]
 template <int N>
 SimplexPoints<N> simplexPoints(double W0) {
   if (!(W0 >= 0 && W0 < 1))
@@ -95,7 +93,7 @@ SimplexPoints<N> simplexPoints(double W0) {
   points.mean_weights(0) = W0;
   points.covariance_weights = points.mean_weights;
   points.offsets.setZero();
-  for (int j = 1; j <= N; ++j) {  // each dimension turns the corners there are away from a new one
+  for (int j = 1; j <= N; ++j) {  // each dimension moves the earlier corners away from a new one
     const double c = 1 / std::sqrt(j * (j + 1) * W1);
     points.offsets.row(j - 1).segment(1, j).setConstant(-c);
     points.offsets(j - 1, j + 1) = j * c;

@@ -11,13 +11,13 @@
 
 namespace sas_motion {
 
-/// A sigma-point filter that carries a root of the covariance instead of the covariance: with spherical simplex points
-/// the SS-SRUKF, with unscented points the SR-UKF. It equals SigmaPointFilter, and stands a covariance that has lost
-/// rank. [Merwe2001]
+/// A sigma-point filter that propagates a root of the covariance: with spherical simplex points the SS-SRUKF, with
+/// unscented points the SR-UKF. It is equivalent to SigmaPointFilter and also works with a singular covariance.
+/// [Merwe2001]
 ///
-/// With weights that are not negative a prediction only adds squares, and no downdate can fail for good. Noise is
-/// additive and given by a lower triangular root with a diagonal that is not negative; the points are drawn anew for
-/// every update.
+/// With weights that are not negative a prediction only adds squares, and a failed downdate can be replaced by a sum.
+/// Noise is additive and given by a lower triangular root with a diagonal that is not negative. Every update forms new
+/// points.
 template <int N, int Count, class Points = SigmaPoints<N, Count>>
 class SquareRootFilter {
  public:
@@ -43,7 +43,7 @@ class SquareRootFilter {
     return prior;
   }
 
-  /// Nothing where the prior is not finite.
+  /// Maps the prior's points by h. Returns nothing where the prior is not finite.
   template <int M, class Function, class Difference = PlainDifference>
   std::optional<Image<M>> project(const Belief& prior, const Function& h, const Difference& difference = {}) const {
     if (!prior.mean.allFinite() || !prior.root.allFinite()) return std::nullopt;
@@ -107,7 +107,7 @@ class SquareRootFilter {
     return true;
   }
 
-  /// The same posterior as a sum of squares, where rounding or lost rank makes the difference fail.
+  /// The same posterior as a sum of squares, for where the downdate fails by rounding or a singular covariance.
   template <int M>
   static Matrix<N> residualRoot(const Matrix<N, Count>& residuals, const Matrix<N, M>& noise) {
     Matrix<N> root = Matrix<N>::Zero();

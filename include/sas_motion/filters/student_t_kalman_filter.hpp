@@ -12,16 +12,16 @@ class YamlSection;
 struct StudentTKalmanOptions {
   double degrees_of_freedom = 4;  ///< nu [-]
   int max_iterations = 30;
-  double tolerance = 1e-6;  ///< fixed point: no weight moves more [-]
-  bool calibrate = true;    ///< in a CalibratedFilter: let the covariance say how large the errors are
+  double tolerance = 1e-6;  ///< largest change of a weight at the fixed point [-]
+  bool calibrate = true;    ///< report a calibrated covariance, see CalibratedFilter
 };
 /// Reads all keys of a section. Throws ConfigError.
 void readOptions(YamlSection yaml, StudentTKalmanOptions& options);
 
-/// Kalman filter with Student-t measurement noise in every row, by variational Bayes [Agamennoni2012; Piche2012].
+/// A Kalman filter with Student-t measurement noise in every row, by variational Bayes [Agamennoni2012; Piche2012].
 ///
 /// Each row's precision factor lambda = (nu + 1) / (nu + E[e^2] / R), with E[e^2] the squared residual at the posterior
-/// plus its variance H P^+ H^T, is iterated to a fixed point from the prediction. As nu grows this is the Kalman
+/// plus its variance H P^+ H^T, is iterated to a fixed point from the prediction. For large nu this is the Kalman
 /// filter. R is diagonal.
 template <int N>
 class StudentTKalmanFilter {
@@ -40,7 +40,7 @@ class StudentTKalmanFilter {
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const;
 
-  /// For CalibratedFilter: psi(r) = lambda r, with `variance` that of the posterior in this row over R, taken as fixed.
+  /// For CalibratedFilter: psi(r) = lambda r. `variance` is that of the posterior in this row over R and is held fixed.
   bool calibrates() const { return options_.calibrate; }
   Influence influence(double residual, double variance) const;
 

@@ -8,17 +8,16 @@
 
 namespace sas_motion {
 
-/// What became of a measurement.
+/// How a measurement was used.
 enum class Verdict {
-  Accepted,      ///< fused as it came
-  DownWeighted,  ///< fused, a row with less than half its weight
-  Rejected,      ///< left out by the filter
-  Stale,         ///< too late to be fused
-  Invalid        ///< not finite, no usable covariance, a duplicate or a failed factorization
+  Accepted,      ///< fused, every row with at least half its weight
+  DownWeighted,  ///< fused, but a row has less than half its weight
+  Rejected,      ///< not fused: the filter takes it for an outlier
+  Stale,         ///< not fused: it came too late
+  Invalid        ///< not fused: not finite, no usable covariance, a duplicate or a failed factorization
 };
 
-/// The report of one measurement update. A failed factorization leaves the belief at the prior and the verdict at
-/// Invalid.
+/// The result of one measurement update. After a failed factorization the belief is the prior and the verdict Invalid.
 template <class Belief, int M>
 struct Update {
   Belief belief;
@@ -27,11 +26,11 @@ struct Update {
   double nis = 0;                            ///< innovation^T S^{-1} innovation
   Vector<M> weights = Vector<M>::Ones();     ///< per row, 0 (ignored) to 1 (full)
   int iterations = 1;
-  bool converged = true;  ///< false where the iteration's bound came before its fixed point
+  bool converged = true;  ///< false where the iterations ended before the fixed point
   Verdict verdict = Verdict::Accepted;
 };
 
-/// Probabilities of the explanations that a belief keeps open; all zero where it keeps one.
+/// Probabilities of the hypotheses of a belief; all zero where it has only one.
 using HypothesisWeights = std::array<double, 9>;
 
 template <class Belief>

@@ -6,8 +6,8 @@
 
 namespace sas_motion {
 
-/// An output that appears under its name only when it is whole: it is written under a temporary name beside it, flushed
-/// to disk and renamed. Destroyed before commit(), it leaves nothing behind and an older file untouched.
+/// A file that appears under its name only when it is complete: it is written under a temporary name in the same
+/// folder, flushed to disk and renamed. Without commit() the destructor removes it, and an older file stays as it was.
 class AtomicFile {
  public:
   /// Throws std::runtime_error naming the file where its folder cannot be written.
@@ -16,7 +16,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Where to write.
+  /// The path to write to.
   const std::string& temporary() const { return temporary_; }
   /// Throws std::runtime_error naming the file where the disk is full or fails.
   void commit();

@@ -13,12 +13,12 @@
 
 namespace sas_motion {
 
-/// Bytes with room behind them, which is kept from use to use.
+/// A buffer of bytes that keeps its capacity.
 struct Block {
   std::vector<std::uint8_t> bytes;
-  std::size_t size = 0;  ///< of what is filled in
+  std::size_t size = 0;  ///< bytes in use
 
-  /// Where to put `more` bytes.
+  /// Appends room for `more` bytes and returns its place.
   std::uint8_t* extend(std::size_t more) {
     if (size + more > bytes.size()) bytes.resize(std::max(size + more, 2 * bytes.size()));
     std::uint8_t* place = bytes.data() + size;
@@ -28,20 +28,19 @@ struct Block {
   void append(std::string_view text) { std::copy(text.begin(), text.end(), extend(text.size())); }
 };
 
-/// A file written front to back by a thread of its own, so that the caller computes while the system copies.
+/// A file that a thread of its own writes from front to back, while the caller computes.
 class BackgroundFile {
  public:
-  /// Functions throw std::runtime_error with the system's reason; a write that failed is thrown by the next write() or
-  /// by close().
+  /// All functions throw std::runtime_error with the system's reason. The next write() or close() reports a failed
+  /// write.
   explicit BackgroundFile(const std::string& path);
   ~BackgroundFile();
   BackgroundFile(const BackgroundFile&) = delete;
   BackgroundFile& operator=(const BackgroundFile&) = delete;
 
-  /// Takes a block to be written and leaves an empty one. Waits for the block before it where the disk is slower than
-  /// the caller.
+  /// Takes a block to write and leaves an empty one. Waits while the previous block is being written.
   void write(Block& block);
-  /// Waits for the last block, then writes `text` over what is at `position`. Nothing may be written after it.
+  /// Waits for the last block, then overwrites the bytes at `position` with `text`. No write may follow.
   void close(std::uint64_t position, std::string_view text);
 
  private:

@@ -8,20 +8,19 @@
 
 namespace sas_motion {
 
-/// A hash of bytes, to tell whether something is still the same: FNV-1a over words of 8 bytes, in four strands that the
-/// processor takes side by side, then over the strands and the size. The shift lets high bits count. No protection
-/// against forgery.
+/// A hash that shows whether bytes have changed: FNV-1a over words of 8 bytes in four independent strands, then over
+/// the strands and the size. The shift mixes in the high bits. The hash does not protect against forgery.
 class Fingerprint {
  public:
   static constexpr std::size_t kBlock = 32;
 
-  /// Takes bytes; all calls but the last must have a multiple of kBlock.
+  /// Adds bytes. All calls but the last must add a multiple of kBlock.
   void add(const char* data, std::size_t size);
-  /// 16 hexadecimal digits.
+  /// Returns 16 hexadecimal digits.
   std::string hex() const;
 
   static std::string ofText(const std::string& text);
-  /// Of a file's bytes; that of nothing where it cannot be read.
+  /// The fingerprint of a file's bytes, or of no bytes where it cannot be read.
   static std::string ofFile(const std::string& path);
 
  private:

@@ -6,8 +6,8 @@
 
 namespace sas_motion {
 
-/// Appends a number with a fixed count of decimals, digit for digit as "{:.9f}" does: rounded exactly, to even where
-/// halfway. With integers of 128 bits, where the number is not too large for them; five times as fast.
+/// Appends a number with a fixed count of decimals, digit for digit as "{:.9f}" does: rounded exactly, halves to even.
+/// Numbers that fit are formatted by 128-bit integers, five times as fast.
 void appendFixed(double value, int decimals, fmt::memory_buffer& out);
 
 }  // namespace sas_motion

@@ -9,7 +9,7 @@ namespace sas_motion {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadPerDeg = kPi / 180.0;
 
-/// The same angle in (-pi, pi] [rad]. Not a number stays not a number.
+/// Returns the equivalent angle in (-pi, pi] [rad]. NaN stays NaN.
 inline double wrapAngle(double angle) {
   if (angle > -kPi && angle <= kPi) return angle;
   const double wrapped = std::remainder(angle, 2.0 * kPi);

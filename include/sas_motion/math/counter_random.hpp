@@ -11,13 +11,14 @@
 
 namespace sas_motion {
 
-/// Whose numbers are drawn: each user, step and item has its own, whatever is drawn elsewhere, in whatever order, on
-/// whatever thread.
+/// Names a sequence of random numbers. Each stream, step and item has its own, which depends neither on other draws nor
+/// on their order or thread.
 struct DrawPlace {
   std::uint32_t stream = 0, step = 0, item = 0;
 };
 
-/// Random numbers as a function of seed and place, by counting instead of remembering. [Salmon2011, Philox4x32-10]
+/// Random numbers as a function of seed and place. The generator is a counter without any other state. [Salmon2011,
+/// Philox4x32-10]
 class CounterRandom {
  public:
   using result_type = std::uint64_t;
@@ -44,7 +45,7 @@ class CounterRandom {
 
   philox4x32_ctr_t counter_, block_{};
   philox4x32_key_t key_;
-  bool second_ = false;  // half of the block has been given
+  bool second_ = false;  // the first half of the block has been returned
 };
 
 }  // namespace sas_motion

@@ -10,8 +10,8 @@
 
 namespace sas_motion {
 
-/// Lower Cholesky factor L with A = L L^T, or nothing where A is not positive definite or not finite. Checked in every
-/// build.
+/// Lower Cholesky factor L with A = L L^T, or nothing where A is not positive definite or not finite. This is checked
+/// in every build.
 template <int N>
 std::optional<Matrix<N>> choleskyLower(const Matrix<N>& A) {
   const Eigen::LLT<Matrix<N>> llt(A);

@@ -13,19 +13,20 @@ struct Gaussian {
   Matrix<N> covariance = Matrix<N>::Identity();
 };
 
-/// Every filter's belief can be summarised as a Gaussian; this one is its own summary.
+/// Summarises a filter's belief as a Gaussian; this belief is one already.
 template <int N>
 const Gaussian<N>& gaussian(const Gaussian<N>& belief) {
   return belief;
 }
 
-/// The covariance that a filter weighs its prediction with; one that keeps another than its summary's has its own.
+/// Returns the covariance that a filter weighs its prediction with. Beliefs that keep a second covariance overload
+/// this.
 template <int N>
 Matrix<N> ownCovariance(const Gaussian<N>& belief) {
   return belief.covariance;
 }
 
-/// Makes a belief less sure; a filter that keeps more than its summary has its own.
+/// Increases the covariance of a belief. Beliefs that keep more than one covariance overload this.
 template <int N>
 void addCovariance(Gaussian<N>& belief, const Matrix<N>& more) {
   belief.covariance += more;

@@ -8,7 +8,7 @@
 
 namespace sas_motion {
 
-/// A belief about an N-vector by a root of its covariance: P = root root^T, lower triangular. P may have lost rank.
+/// A Gaussian that keeps a lower triangular root of its covariance, P = root root^T. P may be singular.
 template <int N>
 struct RootGaussian {
   Vector<N> mean = Vector<N>::Zero();
@@ -20,12 +20,12 @@ Gaussian<N> gaussian(const RootGaussian<N>& belief) {
   return {belief.mean, belief.root * belief.root.transpose()};
 }
 
-/// The lower triangular root of root root^T + A A^T, its diagonal not negative: Householder reflections of [root, A]
-/// from the right, each of which leaves the root's zeros alone. Never forms a square, so that half as many digits
-/// serve. [Golub2013, 5.2; Merwe2001]
+/// Replaces `root` by the lower triangular root of root root^T + A A^T whose diagonal is not negative. Householder
+/// reflections act on [root, A] from the right and keep the root's zeros. No square is formed, so half as many digits
+/// suffice. [Golub2013, 5.2; Merwe2001]
 template <int N, int Count>
 void addSquares(Matrix<N>& root, const Matrix<N, Count>& A) {
-  Matrix<Count, N> rows = A.transpose();  // a row of A each column, as they lie in memory one after the other
+  Matrix<Count, N> rows = A.transpose();  // each column is a row of A, contiguous in memory
   for (int j = 0; j < N; ++j) {
     const Vector<Count> reflector = rows.col(j);
     const double diagonal = root(j, j), rest = reflector.squaredNorm();
@@ -42,7 +42,8 @@ void addSquares(Matrix<N>& root, const Matrix<N, Count>& A) {
   }
 }
 
-/// The root of root root^T - v v^T, or false, with `root` spoilt, where that is not positive definite. [Gill1974]
+/// Replaces `root` by the root of root root^T - v v^T. Returns false where that is not positive definite; `root` is
+/// then invalid. [Gill1974]
 template <int N>
 bool subtractSquare(Matrix<N>& root, Vector<N> v) {
   for (int j = 0; j < N; ++j) {

@@ -19,7 +19,7 @@ Band averageChiSquaredBand(double degrees, double count, double probability);
 
 double rootMeanSquare(const std::vector<double>& values);
 double mean(const std::vector<double>& values);
-/// Of the mean of independent values; 0 where their spread is not known.
+/// The standard error of the mean of independent values; 0 for fewer than two.
 double standardError(const std::vector<double>& values);
 
 /// The `fraction` quantile (0 to 1) by linear interpolation between order statistics; 0 where there are no values.

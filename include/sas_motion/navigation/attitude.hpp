@@ -25,12 +25,12 @@ inline Matrix<3> rotationOf(const Attitude& attitude) {
       .toRotationMatrix();
 }
 
-/// The attitude of a rotation; at a pitch of +-90 degrees roll and heading are not separate.
+/// The attitude of a rotation. At a pitch of +-90 degrees roll and heading cannot be separated.
 inline Attitude attitudeOf(const Matrix<3>& C) {
   return {std::asin(std::clamp(C(2, 1), -1.0, 1.0)), std::atan2(-C(2, 0), C(2, 2)), std::atan2(C(0, 1), C(1, 1))};
 }
 
-/// The turn by a rotation vector [rad].
+/// The quaternion of a rotation vector [rad].
 inline Eigen::Quaterniond quaternionOf(const Vector<3>& rotation) {
   const double angle = rotation.norm(), half = 0.5 * angle;
   const bool small = angle < 1e-4;  // the series is exact there
@@ -39,12 +39,12 @@ inline Eigen::Quaterniond quaternionOf(const Vector<3>& rotation) {
   return {cosine, sinc * rotation.x(), sinc * rotation.y(), sinc * rotation.z()};
 }
 
-/// [a x]: [a x] b = a x b.
+/// The matrix [a x] with [a x] b = a x b.
 inline Matrix<3> skew(const Vector<3>& a) {
   return (Matrix<3>() << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0).finished();
 }
 
-/// Components of starboard, forward, up from those of forward, port, up (REP-103); its transpose leads back.
+/// Maps components forward, port, up (REP-103) to starboard, forward, up. Its transpose is its inverse.
 inline Matrix<3> bodyFromRosBody() { return (Matrix<3>() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(); }
 
 }  // namespace sas_motion

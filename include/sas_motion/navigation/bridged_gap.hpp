@@ -6,12 +6,12 @@
 
 namespace sas_motion {
 
-/// What a body's motion may have been, besides what the next reading says, in a gap of the inertial unit.
+/// The unknown motion of a body in a gap of the IMU, beside the motion that the next reading measures.
 struct BridgedGap {
   double force = 1, rate = 0.1;  ///< standard deviations [m/s^2], [rad/s]
 
-  /// Variances of velocity, position and attitude errors by one part of a gap [m^2/s^2, m^2, rad^2]: the parts add up
-  /// to a force and a rate that are wrong throughout. Times in seconds.
+  /// Variances of velocity, position and attitude errors from one part of a gap [m^2/s^2, m^2, rad^2]. The parts add up
+  /// to the effect of a constant error of force and rate over the whole gap. Times are in seconds.
   Vector<9> variance(double gap, double part) const {
     Vector<9> variance;
     variance.segment<3>(0).setConstant(force * force * gap * part);

@@ -6,8 +6,7 @@
 
 #include "sas_motion/math/types.hpp"
 
-/// The Earth that inertial navigation feels: WGS 84 and its normal gravity. Latitudes in radians, heights above the
-/// ellipsoid.
+/// Figure, rotation and normal gravity of the Earth by WGS 84. Latitudes are in radians, heights above the ellipsoid.
 namespace sas_motion::earth {
 
 constexpr double kSemiMajorAxis = 6378137;              ///< [m]
@@ -15,7 +14,7 @@ constexpr double kEccentricitySquared = 6.69437999e-3;  ///< [-]
 constexpr double kRotationRate = 7.292115e-5;           ///< [rad/s]
 constexpr double kGravityPerHeight = 3.086e-6;          ///< decrease of gravity [1/s^2]
 
-/// Radii of curvature to the point itself: M along the meridian, N across it [m].
+/// Radii of curvature plus the height: M along the meridian, N across it [m].
 struct Radii {
   double M = 0, N = 0;
 };

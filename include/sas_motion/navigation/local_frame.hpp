@@ -15,8 +15,7 @@ struct Geodetic {
   double altitude = 0;  ///< above the ellipsoid [m]
 };
 
-/// The local tangent plane at a datum: where latitude and longitude become metres [Karney,
-/// GeographicLib::LocalCartesian].
+/// The local tangent plane at a datum, with coordinates in metres [Karney, GeographicLib::LocalCartesian].
 class LocalFrame {
  public:
   /// Throws std::invalid_argument where the latitude is outside +-90 degrees or a coordinate is not finite.
@@ -25,7 +24,7 @@ class LocalFrame {
   /// East, north and up of the datum [m].
   Vector<3> position_enu(const Geodetic& point) const;
   Geodetic geodetic(const Vector<3>& position_enu) const;
-  /// From east, north, up at a point to those of the datum.
+  /// Rotates from east, north, up at a point to those at the datum.
   Matrix<3> C_map_nav(const Geodetic& point) const;
   const Geodetic& datum() const { return datum_; }
 

@@ -10,12 +10,12 @@
 
 namespace sas_motion {
 
-// What inertial sensors are described in.
+// Units that inertial sensors are specified in.
 constexpr double kDegPerHour = kRadPerDeg / 3600;  ///< [rad/s]
 constexpr double kMicroG = 9.80665e-6;             ///< [m/s^2]
 
-/// Where a body is, how it moves and how it lies. Axes: nav is east, north, up at the body; body is starboard, forward,
-/// up.
+/// Position, velocity and attitude of a body. The axes of nav are east, north, up at the body; those of body are
+/// starboard, forward, up.
 struct NavigationState {
   double latitude = 0, longitude = 0;  ///< [rad]
   double height = 0;                   ///< above the ellipsoid [m]
@@ -23,45 +23,45 @@ struct NavigationState {
   Eigen::Quaterniond q_nav_body = Eigen::Quaterniond::Identity();
 };
 
-/// `point` from `origin`, both near each other, by the radii at the origin: east, north, up [m].
+/// The vector from `origin` to a nearby `point`, by the radii at the origin: east, north, up [m].
 Vector<3> displacement(const NavigationState& origin, const NavigationState& point);
 /// Moves the position by metres east, north, up.
 void displace(NavigationState& state, const Vector<3>& metres_nav);
 /// Rotation vector phi of C' = (I - [phi x]) C, from the true attitude to the computed one; nav [rad].
 Vector<3> attitudeError(const Eigen::Quaterniond& computed, const Eigen::Quaterniond& truth);
 
-/// What an inertial unit says of the interval that ends at its stamp: means over it, as units that integrate inside
-/// give them.
+/// A reading of an IMU: means over the interval that ends at its stamp, as an IMU that integrates internally gives
+/// them.
 struct ImuReading {
   Stamp stamp = 0;
   Vector<3> rate_body = Vector<3>::Zero();   ///< of the body against inertial space [rad/s]
   Vector<3> force_body = Vector<3>::Zero();  ///< specific force [m/s^2]
 };
 
-/// What became of a reading of the inertial unit.
+/// How a reading of the IMU was used.
 enum class ImuVerdict {
-  Started,      ///< the first one: it says when the time begins, and nothing else
+  Started,      ///< the first reading, of which only the stamp is used
   Integrated,   ///< as it came
-  OffRate,      ///< integrated, but sooner or later than the unit's period says, by more than half of it
-  Bridged,      ///< integrated over a gap that the reading says little of
+  OffRate,      ///< integrated, but its interval differs from the period by more than half of it
+  Bridged,      ///< integrated over a gap, in which the motion is uncertain
   OutOfOrder,   ///< not after the last one; left out
-  Implausible,  ///< not finite, or more than the unit can measure; left out
+  Implausible,  ///< not finite, or more than the IMU can measure; left out
 };
 
 constexpr std::size_t kImuVerdicts = 6;
 
 struct ImuStep {
   ImuVerdict verdict = ImuVerdict::Started;
-  double dt = 0;  ///< integrated over [s]
+  double dt = 0;  ///< the interval that was integrated [s]
 };
 
 /// Strapdown mechanisation in the local level frame. Rotation and velocity increments are corrected for coning and
-/// sculling from the present and the last one [Savage1998, I eq 47, II eq 56]. Holds no memory on the heap.
+/// sculling from the present and the last one [Savage1998, I eq 47, II eq 56]. It allocates nothing.
 class Mechanisation {
  public:
   struct Options {
-    double period = 0.01;      ///< of the unit [s]
-    double longest_gap = 0.1;  ///< that a reading speaks for [s]
+    double period = 0.01;      ///< of the IMU [s]
+    double longest_gap = 0.1;  ///< longest interval that one reading can stand for [s]
     double max_rate = 20;      ///< [rad/s]
     double max_force = 200;    ///< [m/s^2]
   };
@@ -69,21 +69,21 @@ class Mechanisation {
   /// Throws std::invalid_argument where an option is not positive.
   Mechanisation(const NavigationState& start, Stamp stamp, const Options& options);
 
-  /// What `step` would make of the reading, for callers that stop on the way to its stamp.
+  /// The verdict that step() would return, for callers that stop before the stamp of the reading.
   ImuVerdict judge(const ImuReading& reading) const;
   /// Integrates up to the reading's stamp, unless the verdict says that it is left out.
   ImuStep step(const ImuReading& reading);
-  /// Integrates up to `stamp` with the means of a reading that ends there or later, not judged.
+  /// Integrates up to `stamp` with the means of a reading that ends there or later, without a verdict.
   void advance(const ImuReading& reading, Stamp stamp);
 
   const NavigationState& state() const { return state_; }
   Stamp stamp() const { return stamp_; }
-  /// Of the last interval: mean specific force, nav [m/s^2], and rate of the body against inertial space at its end,
-  /// body [rad/s]: half an interval of lag would put the waves into the velocity of a lever arm.
+  /// Mean specific force of the last interval, nav [m/s^2], and rate of the body against inertial space at its end,
+  /// body [rad/s]. A mean rate would lag by half an interval, which brings waves into the velocity of a lever arm.
   const Vector<3>& force_nav() const { return force_nav_; }
   const Vector<3>& rate_body() const { return rate_body_; }
 
-  /// Feedback: goes on from a better state.
+  /// Feedback: continues from a corrected state.
   void reset(const NavigationState& state) { state_ = state; }
 
  private:

@@ -6,16 +6,17 @@
 
 namespace sas_motion {
 
-/// What an inertial unit felt over an interval, apart from where it began: rotation, velocity and way on the body's
-/// axes at the beginning, and how each depends on drifts and biases of the unit. Many states can then be moved by it,
-/// each in one step. [Forster2017]
+/// Readings of an IMU integrated over an interval, whatever the state at its beginning: rotation, velocity and way on
+/// the body's axes at the beginning, and their derivatives by drift and bias. Each of many states is then moved in one
+/// step. [Forster2017]
 class Preintegration {
  public:
-  /// Means over `dt` [rad/s, m/s^2, s].
+  /// Adds means over `dt` [rad/s, m/s^2, s].
   void add(const Vector<3>& rate_body, const Vector<3>& force_body, double dt);
 
   double duration() const { return duration_; }
-  /// Without a drift eps of the gyros and a bias nabla of the accelerometers, which do not change within the interval.
+  /// The results corrected for a drift eps of the gyros and a bias nabla of the accelerometers, constant over the
+  /// interval.
   Eigen::Quaterniond rotation(const Vector<3>& eps) const;
   Vector<3> velocity(const Vector<3>& eps, const Vector<3>& nabla) const {
     return velocity_ + velocity_by_drift_ * eps + velocity_by_bias_ * nabla;

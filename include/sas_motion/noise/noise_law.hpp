@@ -10,7 +10,7 @@
 
 namespace sas_motion {
 
-/// The use of a noise law; not every law makes sense for both.
+/// What a noise law is used for. Not every law suits both.
 enum class NoiseUse { Sensor, Process };
 
 /// A named distribution of noise; sizes are in units of the good standard deviation, times in seconds since the start.
@@ -63,7 +63,7 @@ struct NoiseMix {
   std::vector<NoiseLaw> laws;
 
   NoiseMix() = default;
-  NoiseMix(const NoiseLaw& law) : laws{law} {}  // a law alone is a mix
+  NoiseMix(const NoiseLaw& law) : laws{law} {}  // of one law
   NoiseMix(std::vector<NoiseLaw> all) : laws(std::move(all)) {}
 
   /// Reads a law, a list of laws, or nothing under `key`.

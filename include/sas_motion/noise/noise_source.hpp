@@ -16,13 +16,13 @@ namespace sas_motion {
 struct NoiseSample {
   double value = 0;
   double variance = 1;   ///< variance of this draw for oracles, over the good variance [-]
-  bool outlier = false;  ///< the label: bad, or a Student's t more than three times too wide
+  bool outlier = false;  ///< the label: a bad draw, or a Student's t more than three times too wide
   bool missing = false;  ///< there is no measurement
   bool frozen = false;   ///< the measurement is the last one again
   double quantum = 0;    ///< the measurement is rounded to multiples of this; 0: not rounded
 };
 
-constexpr double kSaysNothing = 1e6;  ///< variance of a reading without information for oracles, over the good one [-]
+constexpr double kSaysNothing = 1e6;  ///< variance of a reading without information, for oracles, over the good one [-]
 
 /// Spells that begin at random, `rate` a second, and last `length` seconds; they do not overlap.
 class Spells {
@@ -96,7 +96,7 @@ class ProcessNoise {
   double last_time_ = 0;
 };
 
-/// The covariance of L w for oracles, where L L^T = Q and the elements of w have these variances.
+/// The covariance of L w, where L L^T = Q and the elements of w have these variances. Oracles use it.
 template <int N>
 Matrix<N> toldCovariance(const Matrix<N>& Q, const Vector<N>& variance) {
   const Matrix<N> L = Q.llt().matrixL();

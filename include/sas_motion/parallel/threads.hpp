@@ -12,10 +12,10 @@
 
 namespace sas_motion {
 
-/// Threads that stay and share out tasks. Giving them work allocates nothing.
+/// A team of threads that stays and shares tasks. forEach() allocates nothing.
 class ThreadTeam {
  public:
-  /// Of `threads` threads, the caller's counted; where no more are to be had, those there do the work.
+  /// Starts `threads` - 1 threads beside the caller's. Where the system refuses some, the others do the work.
   explicit ThreadTeam(int threads) {
     for (int i = 1; i < threads; ++i) {
       try {
@@ -36,7 +36,8 @@ class ThreadTeam {
     for (auto& thread : others_) thread.join();
   }
 
-  /// Does `work(task)` for 0 <= task < count, each thread taking the next. What `work` throws reaches the caller.
+  /// Calls `work(task)` for 0 <= task < count; each thread takes the next task. An exception of `work` reaches the
+  /// caller.
   template <class Work>
   void forEach(std::size_t count, Work&& work) {
     start(count, &work, [](void* it, std::size_t task) { (*static_cast<std::remove_reference_t<Work>*>(it))(task); });
@@ -103,7 +104,7 @@ class ThreadTeam {
   std::exception_ptr failure_;
 };
 
-/// Does `work(task)` for 0 <= task < count on `threads` threads that are there for this alone.
+/// Calls `work(task)` for 0 <= task < count on `threads` threads that are started for this alone.
 template <class Work>
 void forEachTask(std::size_t count, int threads, Work&& work) {
   ThreadTeam(threads).forEach(count, work);

@@ -6,8 +6,8 @@
 
 namespace sas_motion {
 
-/// A chi-squared gate on the normalised innovation squared (NIS): lets through what `probability` of good measurements
-/// stay below.
+/// A chi-squared gate on the normalised innovation squared (NIS). It accepts a share `probability` of good
+/// measurements.
 class ChiSquaredGate {
  public:
   explicit ChiSquaredGate(double probability) {

@@ -7,18 +7,19 @@
 
 namespace sas_motion {
 
-/// What a robust estimate makes of a whitened residual: psi, its slope, and the weight psi / r in [0, 1].
+/// The influence of a whitened residual r on a robust estimate: psi(r), its slope, and the weight psi / r in [0, 1].
 struct Influence {
   double psi, slope, weight;
 };
 
 enum class LossKind { L2, Huber, PseudoHuber, Cauchy, Tukey, GemanMcClure, Welsch, Dcs };
 
-/// A loss rho(r) of a whitened residual r (unit variance when all is well), as M-estimation uses it [Huber1981,
+/// A loss rho(r) of a whitened residual r (unit variance for good data), as M-estimation uses it [Huber1981,
 /// Zhang1997].
 ///
-/// Scaled so that rho(r) = r^2 / 2 and weight(r) = 1 near r = 0. The tuning c has the unit of r (for dcs, of r^2); the
-/// customary values (95 % efficiency on Gaussian data for most) are the defaults. As c grows every loss becomes L2.
+/// A loss is scaled so that rho(r) = r^2 / 2 and weight(r) = 1 near r = 0. The tuning c has the unit of r (for dcs, of
+/// r^2); the customary values (95 % efficiency on Gaussian data for most) are the defaults. As c grows every loss
+/// becomes L2.
 class Loss {
  public:
   /// Throws std::invalid_argument where `tuning` is not positive and finite.
@@ -28,9 +29,9 @@ class Loss {
   double rho(double residual) const;
   /// psi(r) / r with psi = rho', in [0, 1]; 1 at r = 0.
   double weight(double residual) const;
-  /// psi'(r), at most 1; of huber and dcs, the limit from within at the bend.
+  /// psi'(r), at most 1. At the bend of huber and dcs it is the limit from the inside.
   double slope(double residual) const;
-  /// True where the weight falls so fast that rho is not convex: an iteration's answer depends on its start.
+  /// True where rho is not convex, so that an iteration's answer depends on its start.
   bool redescending() const { return redescending(kind_); }
 
   LossKind kind() const { return kind_; }

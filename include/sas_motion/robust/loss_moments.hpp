@@ -6,8 +6,8 @@
 
 namespace sas_motion {
 
-/// E[psi(r)^2] for standard normal r: what a robust estimate of scale divides by to be right for good noise (Huber's
-/// proposal 2). [Huber1981, 6.4]
+/// E[psi(r)^2] for standard normal r. A robust estimate of scale divides by it to be consistent for Gaussian noise
+/// (Huber's proposal 2). [Huber1981, 6.4]
 double gaussianMeanSquaredInfluence(const Loss& loss);
 
 }  // namespace sas_motion

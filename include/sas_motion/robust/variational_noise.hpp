@@ -8,17 +8,16 @@
 
 namespace sas_motion {
 
-/// What is believed of the variance of M independent channels, each over its stated variance: inverse gamma densities,
-/// by how many readings they rest on and the sum of those readings' normalised squares. [Sarkka2009, Sarkka2013]
+/// Inverse gamma densities of the variances of M independent channels, each over its stated variance. A density is
+/// stored as a number of readings and the sum of their normalised squares. [Sarkka2009, Sarkka2013]
 ///
-/// Forgetting makes the estimate late where the noise changes: by 1 / (1 - rho) steps. `trend` 1 takes that back, as
-/// far as the change goes on as it did (Brown's double exponential smoothing, of the logarithm); 0 is the literal
-/// filter.
+/// Forgetting delays the estimate of changing noise by 1 / (1 - rho) steps. `trend` 1 removes the delay of a steady
+/// change (Brown's double exponential smoothing of the logarithm); 0 is the literal filter.
 template <int M>
 class VariationalNoise {
  public:
-  /// Begins with an expectation for each channel, as if from this many readings; in the terms of an inverse Wishart's
-  /// degrees of freedom u that is u - M - 1.
+  /// Starts with an expectation for each channel, as if it came from this many readings. An inverse Wishart density of
+  /// u degrees of freedom has u - M - 1.
   explicit VariationalNoise(const Vector<M>& factor = Vector<M>::Ones(), double readings = 20)
       : count_(Vector<M>::Constant(readings)), sum_(readings * factor), late_(factor.array().log()) {}
 
@@ -28,7 +27,7 @@ class VariationalNoise {
     return (now + trend * (now - late_)).array().exp();
   }
 
-  /// The same expectation, less sure: readings fade by rho in (0, 1].
+  /// The same expectation with a larger variance: earlier readings are weighted by rho in (0, 1].
   VariationalNoise faded(double rho) const {
     VariationalNoise result = *this;
     result.count_ *= rho;
@@ -36,7 +35,7 @@ class VariationalNoise {
     return result;
   }
 
-  /// With one more reading in the rows where `present` is 1, the expectation not below 1 / limit or above limit.
+  /// Adds a reading in the rows where `present` is 1. The expectation is kept between 1 / limit and limit.
   VariationalNoise with(const Vector<M>& squares, const Vector<M>& present, double limit) const {
     VariationalNoise result = *this;
     result.count_ += present;

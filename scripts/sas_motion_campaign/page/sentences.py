@@ -5,7 +5,7 @@ from sas_motion_report.columns import number
 from sas_motion_report.headline import listing
 from sas_motion_report.inputs import dig, finite
 
-from .yardstick import NAMES, contenders, middle, nearest, pairs, ratio, yardstick
+from .reference import NAMES, contenders, middle, nearest, pairs, ratio, reference
 
 LOOSE = 1.1  # times the bound, where even the best stays above it
 TRUSTED = (0.8, 1.25)  # NEES over its degrees within which the stated sigma is right to an eighth
@@ -20,19 +20,19 @@ def sentences(campaign, costs):
 
 
 def winner(campaign):
-    """Names the estimator that is nearest to the yardstick in the most laws."""
+    """Names the estimator that is nearest to the reference in the most laws."""
     name, laws, ratios = nearest(campaign)[0]
     text = f'{name} is the most accurate in {laws} of {count(campaign["laws"], "law")}'
-    if not ratios or yardstick(campaign) == 'best':
+    if not ratios or reference(campaign) == 'best':
         return text + '.'
     worst = max(ratios, key=ratios.get)
-    return f'{text}: {times(middle(ratios))} the error of {NAMES[yardstick(campaign)]} in the middle law, {times(ratios[worst])} at worst ({worst}).'
+    return f'{text}: {times(middle(ratios))} the error of {NAMES[reference(campaign)]} in the middle law, {times(ratios[worst])} at worst ({worst}).'
 
 
 def runner_up(campaign):
     """Names who follows."""
     others = [item for item in nearest(campaign)[1:] if item[2]]
-    if not others or yardstick(campaign) == 'best':
+    if not others or reference(campaign) == 'best':
         return None
     name, _, ratios = min(others, key=lambda item: middle(item[2]))
     worst = max(ratios, key=ratios.get)

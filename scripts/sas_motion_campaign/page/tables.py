@@ -9,7 +9,7 @@ from sas_motion_report.tables import table
 
 from .. import errors, particles
 from ..images import CAPTION, COSTS_CAPTION, cost_rows, image_rows
-from .yardstick import NAMES, contenders, ranked, yardstick
+from .reference import NAMES, contenders, ranked, reference
 
 RATIOS = (('clean', 'R'), ('kf', '/ kf'), ('oracle_kf', '/ oracle_kf'), ('bayes_reference', '/ bayes_reference'), ('ckf', '/ ckf'), ('oracle_ckf', '/ oracle_ckf'), ('bound', '/ bound'))
 
@@ -38,8 +38,8 @@ def images(campaign, name):
 
 
 def overview(campaign, name):
-    """Returns the table of ratios to the yardstick: estimators by laws, the best contender of a law marked."""
-    key = yardstick(campaign)
+    """Returns the table of ratios to the reference: estimators by laws, the best contender of a law marked."""
+    key = reference(campaign)
     best = {law: next((n for n in ranked(campaign, tree) if n in contenders(campaign)), None) for law, tree in campaign['laws'].items()}
     rows = [[escape(estimator)] + [with_interval(dig(tree, 'estimators', estimator, 'ratios', key), 'best' if best[law] == estimator else '', 2)
                                    for law, tree in campaign['laws'].items()] for estimator in campaign['estimators']]

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Compiled once for each vector instruction set; the best one this machine has is chosen when the program runs. Lanes
-// are the innermost dimension and every other is a loop, so this little code serves all sizes.
+// This file is compiled once for each vector instruction set; the best one of the machine is chosen at run time. Lanes
+// are the innermost dimension and all others are loops, so the same code serves all sizes.
 #include "sas_motion/filters/particles/blocks.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -23,12 +23,12 @@ using Doubles = hn::Vec<D>;
 HWY_INLINE Doubles load(const double* from, int element) { return hn::LoadU(D(), from + kLanes * element); }
 HWY_INLINE void store(Doubles value, double* to, int element) { hn::StoreU(value, D(), to + kLanes * element); }
 HWY_INLINE Doubles all(double value) { return hn::Set(D(), value); }
-/// 0 where every x so far was finite, else not a number.
+/// Returns 0 where every x so far was finite, else NaN.
 HWY_INLINE Doubles stillFinite(Doubles so_far, Doubles x) { return hn::MulAdd(x, hn::Zero(D()), so_far); }
 
 constexpr int at(int row, int column) { return row * (row + 1) / 2 + column; }
 
-/// Does `work(lane)` for the first lane of every register that a block takes.
+/// Calls `work(lane)` for the first lane of every register of a block.
 template <class Work>
 HWY_INLINE void forEachPart(const Work& work) {
   for (int lane = 0; lane < kLanes; lane += static_cast<int>(hn::Lanes(D()))) work(lane);
@@ -69,7 +69,7 @@ struct Reflector {
   Doubles head, scale;
 };
 
-/// Reflects row i of [root, A] and the ones after it, `Rows` together.
+/// Reflects row i of [root, A] and those after it, `Rows` at a time.
 template <int Rows>
 HWY_INLINE void reflect(const Reflector& reflector, int i, int j, double* root, double* A) {
   Doubles along[Rows];
@@ -109,21 +109,21 @@ HWY_INLINE void addSquaresPart(double* root, int size, double* A, int count) {
   }
 }
 
-/// The weighted products of h's deviations with the points', (K S_root)^T before it is divided by S_root.
+/// Computes the weighted products of h's deviations with the points', which divided by S_root are (K S_root)^T.
 HWY_INLINE void crossMoments(const Conditioning& b, int lane) {
   for (int i = 0; i < b.states; ++i) {
     const double* const offsets = b.offsets + lane + kLanes * i * b.points;
     for (int m = 0; m < b.rows; ++m) {
       const double* const deviations = b.deviations + lane + kLanes * m * b.points;
       auto sum = hn::Zero(D());
-      for (int p = 1; p <= i + 2; ++p)  // the centre and the later corners are where the mean is
+      for (int p = 1; p <= i + 2; ++p)  // the centre and the later corners have no offset here
         sum = hn::MulAdd(hn::Mul(all(b.root_weights[p]), load(offsets, p)), load(deviations, p), sum);
       store(sum, b.gain + lane, m * b.states + i);
     }
   }
 }
 
-/// Column `column` of S_root^{-1} `matrix`, of which a row has `columns`.
+/// Solves for column `column` of S_root^{-1} `matrix`, whose rows have `columns` elements.
 HWY_INLINE void solveLower(const double* S_root, int rows, int columns, int column, double* matrix) {
   for (int m = 0; m < rows; ++m) {
     auto sum = load(matrix, m * columns + column);
@@ -132,8 +132,8 @@ HWY_INLINE void solveLower(const double* S_root, int rows, int columns, int colu
   }
 }
 
-/// Takes the squares of the gain's rows out of the root, as subtractSquare of math/square_root.hpp, all at once column
-/// by column. 1 where that leaves a positive definite matrix. Spoils the gain. [Gill1974]
+/// Subtracts the squares of the gain's rows from the root, as subtractSquare() of math/square_root.hpp does, all of
+/// them column by column. Returns 1 where the result is positive definite. Overwrites the gain. [Gill1974]
 HWY_INLINE Doubles subtractSquares(double* root, double* gain, int rows, int states) {
   double rotation[3 * kLanes * kMostRows];  // cosine, its inverse, sine
   auto positive = all(1);

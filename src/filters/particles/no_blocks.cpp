@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Of a build without Highway: filters see that there are no vector instructions and call nothing of this.
+// For builds without Highway: available() is false, so filters call none of the other functions.
 #include <stdexcept>
 
 #include "sas_motion/filters/particles/blocks.hpp"

@@ -52,7 +52,7 @@ std::size_t ParticleWeights::heaviest() const {
 
 void resampleSystematically(const std::vector<double>& weights, double uniform, std::vector<std::size_t>& parents) {
   const auto count = static_cast<double>(parents.size());
-  std::size_t last = weights.size() - 1;  // that has weight: rounding must not lead past it
+  std::size_t last = weights.size() - 1;  // the last particle with weight, which rounding must not pass
   while (last > 0 && !(weights[last] > 0)) --last;
   std::size_t parent = 0;
   double sum = weights[0];

@@ -42,7 +42,8 @@ class InsCampaign final : public Campaign {
   InsCampaign(YamlSection& yaml, const std::string& folder, EstimatorFactory make) : make_(std::move(make)) {
     dimension = kStates;
     const auto scenario = readScenario<Scenario>(yaml, folder);
-    readScoring(yaml, 120, [&](const std::string& name) { return findSolution(name) || make_(name, {}); });
+    readScoring(
+        yaml, 120, [&](const std::string& name) { return findSolution(name) || make_(name, {}); }, currentName);
     scenarios_ = readLaws(yaml, scenario, &readLaw);
   }
 

@@ -12,7 +12,7 @@ namespace {
 using imaging::TimedPose;
 
 constexpr double kHalfStep =
-    0.01;  // of the believed velocity's difference [s]: a few readings of an inertial unit, and in it waves do not bend
+    0.01;  // of the believed velocity's difference [s]: a few readings of an IMU, and in it waves do not bend
 
 /// Forward, port, up to starboard, forward, up.
 Vector<3> navigationAxes(const Eigen::Vector3d& v) { return {-v.y(), v.x(), v.z()}; }

@@ -7,6 +7,7 @@
 
 #include "campaign/imaging_measures.hpp"
 #include "sas_motion/imaging/focus_scene.hpp"
+#include "sas_motion/systems/ins_gps_dvl/solutions.hpp"
 #include "systems/ins_gps_dvl/campaign.hpp"
 #include "systems/ins_gps_dvl/imaging_survey.hpp"
 #include "systems/ins_gps_dvl/run_scorer.hpp"
@@ -32,9 +33,10 @@ class ImagingCampaign final : public Campaign {
  public:
   ImagingCampaign(YamlSection& yaml, const std::string& folder, EstimatorFactory make) : make_(std::move(make)) {
     const auto scenario = readScenario<Scenario>(yaml, folder);
-    readScoring(yaml, 120, [&](const std::string& name) {
+    const auto known = [&](const std::string& name) {
       return name == kErrorFree || make_(name, configOf(scenario)) != nullptr;
-    });
+    };
+    readScoring(yaml, 120, known, currentName);
     scenarios_ = readLaws(yaml, scenario, &readLaw);
     trajectory_.emplace(scenario.track, duration);
     settings_ = imaging::readFocus(fileOf(yaml, "config", folder));

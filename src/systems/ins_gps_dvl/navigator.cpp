@@ -37,7 +37,7 @@ Navigator<Filter>::Navigator(const Filter& filter, const Parameters& parameters,
       ins_(start, stamp, options.imu),
       belief_(model_.start()),
       reckoned_(start),
-      smooth_(start, options.smooth) {}
+      steady_(start, options.steady) {}
 
 template <class Filter>
 ImuStep Navigator<Filter>::add(const ImuReading& reading) {
@@ -74,7 +74,7 @@ void Navigator<Filter>::advance(const ImuReading& reading, Stamp stamp) {
   C_sum_ += dt * C;
   displace(reckoned_, dt * (velocity_body_ ? Vector<3>(C * *velocity_body_) : state.velocity_nav));
   if (since_ > options_.step - 1e-9 || gap_ > 0) predict();
-  smooth_.move(fused(), dt);
+  steady_.move(fused(), dt);
   if (gap_ > 0) widenForGap(dt);
 }
 
@@ -117,7 +117,7 @@ void Navigator<Filter>::fuse(const Aiding& reading) {
     case Sensor::Depth: update(model_.depth(ins, reading.fix.height, belief_.mean)); break;
     case Sensor::Dpc: update(model_.dpc(ins, ins_.rate_body(), reading.array, belief_.mean)); break;
   }
-  smooth_.jump(fused());
+  steady_.jump(fused());
   if (options_.feedback) feedBack();
 }
 

@@ -3,6 +3,7 @@
 #include "sas_motion/systems/ins_gps_dvl/solutions.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace sas_motion::ins {
 namespace {
@@ -31,19 +32,16 @@ const std::vector<NamedSolution>& namedSolutions() {
   static const std::vector<NamedSolution> all = [] {
     std::vector<NamedSolution> solutions;
     for (const auto& kind : filterKinds()) {
-      // "kf" of 27 states was called "ckf" when there were only two of them
-      const std::string name = (kind.filter == "kf"          ? "ckf"
-                                : kind.filter == "robust_kf" ? "robust_ckf"
-                                                             : kind.filter) +
-                               "27";
+      const std::string name = kind.filter + "27";
       if (kind.filter.empty()) {
-        solutions.insert(solutions.end(),
-                         {{"ins", kind, Source::Fused}, {"gps", kind, Source::Gps}, {"dvl", kind, Source::Dvl}});
+        solutions.insert(
+            solutions.end(),
+            {{"ins", kind, Source::Fused}, {"gnss_alone", kind, Source::Gnss}, {"dvl", kind, Source::Dvl}});
       } else if (kind.feedback) {
         solutions.insert(solutions.end(), {{name, kind, Source::Fused},
-                                           {"gps_" + name, kind, Source::Gps},
+                                           {"gnss_" + name, kind, Source::Gnss},
                                            {"dvl_" + name, kind, Source::Dvl},
-                                           {"smooth_" + name, kind, Source::Smooth}});
+                                           {"steady_" + name, kind, Source::Steady}});
       } else {
         solutions.push_back({"open_loop_" + name, kind, Source::Fused});
       }
@@ -51,6 +49,22 @@ const std::vector<NamedSolution>& namedSolutions() {
     return solutions;
   }();
   return all;
+}
+
+std::string currentName(const std::string& name) {
+  static const std::map<std::string, std::string> renamed{{"ckf27", "kf27"},
+                                                          {"robust_ckf27", "robust_kf27"},
+                                                          {"open_loop_ckf27", "open_loop_kf27"},
+                                                          {"smooth_ckf27", "steady_kf27"},
+                                                          {"smooth_robust_ckf27", "steady_robust_kf27"},
+                                                          {"dvl_ckf27", "dvl_kf27"},
+                                                          {"dvl_robust_ckf27", "dvl_robust_kf27"},
+                                                          {"gps_ckf27", "gnss_kf27"},
+                                                          {"gps_robust_ckf27", "gnss_robust_kf27"},
+                                                          {"gps", "gnss_alone"},
+                                                          {"gnss", "gnss_alone"}};  // gnss/fix is the receiver's topic
+  const auto found = renamed.find(name);
+  return found == renamed.end() ? name : found->second;
 }
 
 const NamedSolution* findSolution(const std::string& name) {
@@ -75,8 +89,8 @@ std::optional<NavigationSolution> solutionOf(const Navigator<Filter>& navigator,
       solution.state = navigator.dvl();
       solution.has_attitude = false;
       break;
-    case Source::Smooth: solution.state = navigator.smooth(); break;
-    case Source::Gps:
+    case Source::Steady: solution.state = navigator.steady(); break;
+    case Source::Gnss:
       if (!navigator.gps()) return std::nullopt;
       solution.stamp = navigator.gps()->stamp;
       solution.state = navigator.gps()->state;

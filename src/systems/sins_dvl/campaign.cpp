@@ -31,7 +31,8 @@ class SinsCampaign final : public Campaign {
     yaml.integer("threads", particles_.threads, 1, 1024);
     yaml.boolean("accelerometer_bias", accelerometer_bias_);
     dimension = accelerometer_bias_ ? kStates : kPaperStates;
-    readScoring(yaml, 60, [&](const std::string& name) { return make_(name, {}) != nullptr; });
+    readScoring(
+        yaml, 60, [&](const std::string& name) { return make_(name, {}) != nullptr; }, currentName);
     scenarios_ = readLaws(yaml, scenario, &readLaw);
   }
 

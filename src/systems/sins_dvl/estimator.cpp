@@ -20,7 +20,7 @@ const std::vector<NamedFilter>& namedFilters() {
       {"upf", Kind::Unscented},
       {"ss_srupf", Kind::SquareRoot},
       {"robust_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, true},
-      {"smooth_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, false, true},
+      {"steady_ss_srupf", Kind::SquareRoot, Weighting::Mixture, false, false, true},
       {"ss_srupf_optimal", Kind::SquareRoot, Weighting::OptimalProposal},
       {"ss_srupf_literal", Kind::SquareRoot, Weighting::Literal},
       {"ss_srukf", Kind::SquareRoot, Weighting::Mixture, true},
@@ -36,6 +36,10 @@ const std::vector<std::string>& fusionNames() {
     return all;
   }();
   return names;
+}
+
+std::string currentName(const std::string& name) {
+  return name == "smooth_ss_srupf" ? "steady_ss_srupf" : ins::currentName(name);
 }
 
 const NamedFilter* findFilter(const std::string& name) {

@@ -77,11 +77,11 @@ Matrix<4, 3> rightTurn(const Eigen::Quaterniond& q) {
   return U;
 }
 
-NavigationState moved(const NavigationState& state, const Preintegration& felt, const Vector<3>& eps,
+NavigationState moved(const NavigationState& state, const Preintegration& preintegrated, const Vector<3>& eps,
                       const Vector<3>& nabla) {
-  const double T = felt.duration(), s = std::sin(state.latitude), c = std::cos(state.latitude);
+  const double T = preintegrated.duration(), s = std::sin(state.latitude), c = std::cos(state.latitude);
   const Matrix<3> C = state.q_nav_body.toRotationMatrix();
-  Vector<3> velocity = C * felt.velocity(eps, nabla), way = C * felt.way(eps, nabla);
+  Vector<3> velocity = C * preintegrated.velocity(eps, nabla), way = C * preintegrated.way(eps, nabla);
   const auto [M, N] = earth::radiiBySine(s, state.height);
   const double per_T = 1 / T, per_M = 1 / M, per_N = 1 / N, per_parallel = per_N / c;
   const Vector<3> gravity(0, 0, -earth::gravityBySine(s, state.height)),
@@ -94,7 +94,7 @@ NavigationState moved(const NavigationState& state, const Preintegration& felt, 
   const Vector<3> v = state.velocity_nav;
   const Vector<3> middle_v = v + per_T * way + 0.5 * T * pull(v);
   const Vector<3> turn = turning + overEarth(middle_v), acceleration = pull(middle_v);
-  velocity -= turn.cross(T * velocity - way);  // what is felt later is felt on axes that the Earth has turned
+  velocity -= turn.cross(T * velocity - way);  // later readings are on axes that the Earth has turned
   way -= turn.cross(T / 3 * way);
   const Vector<3> mean_v = v + per_T * way + 0.5 * T * acceleration;
 
@@ -103,23 +103,23 @@ NavigationState moved(const NavigationState& state, const Preintegration& felt, 
   end.longitude = state.longitude + T * mean_v.x() * per_parallel;
   end.height = state.height + T * mean_v.z();
   end.velocity_nav = v + velocity + T * acceleration;
-  end.q_nav_body = quaternionOf(-T * turn) * state.q_nav_body * felt.rotation(eps);
+  end.q_nav_body = quaternionOf(-T * turn) * state.q_nav_body * preintegrated.rotation(eps);
   return end;
 }
 
 template <int N>
-Motion<N>::Motion(const Parameters& p, const NavigationState& ins, const Preintegration& felt)
+Motion<N>::Motion(const Parameters& p, const NavigationState& ins, const Preintegration& preintegrated)
     : ins_(ins),
-      ins_moved_(moved(ins, felt, Vector<3>::Zero(), Vector<3>::Zero())),
-      felt_(felt),
+      ins_moved_(moved(ins, preintegrated, Vector<3>::Zero(), Vector<3>::Zero())),
+      preintegrated_(preintegrated),
       parameters_(p),
-      offset_decay_(std::exp(-felt.duration() / p.dvl_offset_time)),
-      angle_decay_(std::exp(-felt.duration() / p.dvl_angle_time)) {}
+      offset_decay_(std::exp(-preintegrated.duration() / p.dvl_offset_time)),
+      angle_decay_(std::exp(-preintegrated.duration() / p.dvl_angle_time)) {}
 
 template <int N>
 Matrix<N> Motion<N>::noiseRoot(const Vector<9>& besides) const {
   const Parameters& p = parameters_;
-  const double T = felt_.duration();
+  const double T = preintegrated_.duration();
   Matrix<N> Q = Matrix<N>::Zero();
   const Vector<3> position_variance = Vector<3>::Constant(T * squared(kRoughPosition)) + besides.segment<3>(3);
   Q.diagonal().template segment<3>(kPosition) = northFirst(position_variance).cwiseProduct(perMetre(ins_).cwiseAbs2());
@@ -142,7 +142,8 @@ Matrix<N> Motion<N>::noiseRoot(const Vector<9>& besides) const {
 
 template <int N>
 Vector<N> Motion<N>::operator()(const Vector<N>& x) const {
-  const NavigationState truth = moved(View<N>(ins_).corrected(x), felt_, x.template segment<3>(kGyro), biasOf<N>(x));
+  const NavigationState truth =
+      moved(View<N>(ins_).corrected(x), preintegrated_, x.template segment<3>(kGyro), biasOf<N>(x));
   Vector<N> end = x;
   end(kPosition) = ins_moved_.latitude - truth.latitude;
   end(kPosition + 1) = ins_moved_.longitude - truth.longitude;

@@ -12,22 +12,22 @@
 #include "sas_motion/filters/particles/simplex_blocks.hpp"
 #include "sas_motion/filters/sigma_point_filter.hpp"
 #include "sas_motion/navigation/bridged_gap.hpp"
-#include "sas_motion/navigation/smooth_track.hpp"
+#include "sas_motion/navigation/steady_track.hpp"
 #include "sas_motion/systems/ins_gps_dvl/alignment.hpp"
 #include "sas_motion/systems/sins_dvl/estimator.hpp"
 
 namespace sas_motion::sins {
 
-/// Mechanises the inertial unit, open loop, and estimates its errors with a particle filter.
+/// Mechanises the IMU, open loop, and estimates its errors with a particle filter.
 ///
-/// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale.
+/// Readings that aid are held until the IMU has come to their stamp; those before its last stamp are stale.
 /// DVL and depth of one stamp are fused together. The covariance of a solution is that of the filter's last step. A
 /// copy shares the particles until either changes them.
 template <int N, class Filter>
 class Navigator final : public ins::Estimator {
  public:
-  Navigator(Filter filter, const Config& config, bool smooth)
-      : filter_(std::make_shared<Filter>(std::move(filter))), config_(config), smooth_(smooth) {}
+  Navigator(Filter filter, const Config& config, bool steady)
+      : filter_(std::make_shared<Filter>(std::move(filter))), config_(config), steady_(steady) {}
 
   void start(const NavigationState& state, Stamp stamp) override {
     ins_.emplace(state, stamp, config_.imu);
@@ -39,15 +39,15 @@ class Navigator final : public ins::Estimator {
       else
         return filter.start(belief, startBelief<N>(ofOneParticle(config_.parameters), state).covariance);
     }();
-    if (!started) return ins_.reset();  // no covariance to draw from: all readings of the unit are out of order then
+    if (!started) return ins_.reset();  // no covariance to draw from: all readings of the IMU are out of order then
     filter.replace([&](const Vector<N>& x) { return View<N>(state).constrained(x); });
     predicted_from_ = state;
-    felt_ = {};
+    preintegrated_ = {};
     gap_variance_.setZero();
     mean_ = belief.mean;
     covariance_ = covarianceOf(belief);
     waiting_.clear();
-    track_.emplace(state, SmoothTrack::Options{});
+    track_.emplace(state, SteadyTrack::Options{});
   }
 
   std::unique_ptr<ins::Estimator> clone() const override { return std::make_unique<Navigator>(*this); }
@@ -72,8 +72,8 @@ class Navigator final : public ins::Estimator {
       fuse(group, output);
     }
     advance(reading, reading.stamp, gap);
-    if (!smooth_ && !covariance_) covariance_ = covarianceOf(filter_->belief());
-    if (smooth_)
+    if (!steady_ && !covariance_) covariance_ = covarianceOf(filter_->belief());
+    if (steady_)
       output.solutions.push_back({ins_->stamp(), track_->state(), true, true, std::nullopt, rateOverGround()});
     else
       output.solutions.push_back({ins_->stamp(), fused(), true, true, covariance_, rateOverGround()});
@@ -114,37 +114,38 @@ class Navigator final : public ins::Estimator {
     const double dt = secondsBetween(ins_->stamp(), stamp);
     ins_->advance(reading, stamp);
     if (!(dt > 0)) return;
-    felt_.add(reading.rate_body, reading.force_body, dt);
+    preintegrated_.add(reading.rate_body, reading.force_body, dt);
     if (gap > 0) gap_variance_ += BridgedGap{}.variance(gap, dt);
-    if (gap > 0 || felt_.duration() > config_.longest_step - 1e-9) predict();
-    if (smooth_) track_->move(fused(), dt);
+    if (gap > 0 || preintegrated_.duration() > config_.longest_step - 1e-9) predict();
+    if (steady_) track_->move(fused(), dt);
   }
 
   void predict() {
-    if (!(felt_.duration() > 0)) return;
-    const Motion<N> motion(config_.parameters, predicted_from_, felt_);
+    if (!(preintegrated_.duration() > 0)) return;
+    const Motion<N> motion(config_.parameters, predicted_from_, preintegrated_);
     const Vector<3> turned = gap_variance_.tail<3>();
     gap_variance_.tail<3>() = turned.cwiseMin(kNearlyLinear * kNearlyLinear);
     ownFilter().predict(motion, motion.noiseRoot(gap_variance_));
     mean_ = motion(mean_);
     predicted_from_ = ins_->state();
-    if (turned != gap_variance_.tail<3>()) scatter(turned - gap_variance_.tail<3>());
-    felt_ = {};
+    if (turned != gap_variance_.tail<3>()) roughen(turned - gap_variance_.tail<3>());
+    preintegrated_ = {};
     gap_variance_.setZero();
     covariance_.reset();
   }
 
   /// What one Gaussian would be too wide for is shared out among all.
-  void scatter(const Vector<3>& turned) {
+  void roughen(const Vector<3>& turned) {
     Filter& filter = ownFilter();
-    filter.scatter(turnRoot<N>(predicted_from_, turned));
+    filter.roughen(turnRoot<N>(predicted_from_, turned));
     filter.replace([&](const Vector<N>& x) { return View<N>(predicted_from_).constrained(x); });
   }
 
   NavigationState fused() const { return View<N>(ins_->state()).corrected(meanNow()); }
   /// Between predictions the mean moves as the INS does.
   Vector<N> meanNow() const {
-    return felt_.duration() > 0 ? Motion<N>(config_.parameters, predicted_from_, felt_)(mean_) : mean_;
+    return preintegrated_.duration() > 0 ? Motion<N>(config_.parameters, predicted_from_, preintegrated_)(mean_)
+                                         : mean_;
   }
   Vector<3> rateOverGround() const { return ins::rateOverGround(ins_->state(), ins_->rate_body()); }
 
@@ -181,7 +182,7 @@ class Navigator final : public ins::Estimator {
     filter.replace([&](const Vector<N>& x) { return view.constrained(x); });
     mean_ = filter.mean();
     covariance_.reset();
-    if (smooth_) track_->jump(fused());
+    if (steady_) track_->jump(fused());
     for (const auto& one : group.readings)
       if (fuses(one.sensor)) output.audits.push_back(auditOf(one, update));
   }
@@ -222,13 +223,13 @@ class Navigator final : public ins::Estimator {
   Config config_;
   std::optional<Mechanisation> ins_;
   NavigationState predicted_from_;              // the INS at the filter's last prediction
-  Preintegration felt_;                         // since then
-  Vector<9> gap_variance_ = Vector<9>::Zero();  // likewise, of gaps of the inertial unit
+  Preintegration preintegrated_;                // since then
+  Vector<9> gap_variance_ = Vector<9>::Zero();  // likewise, of gaps of the IMU
   Vector<N> mean_ = Vector<N>::Zero();
   std::optional<Matrix<9>> covariance_;  // of the solution
   std::deque<ins::Aiding> waiting_;
-  bool smooth_;
-  std::optional<SmoothTrack> track_;
+  bool steady_;
+  std::optional<SteadyTrack> track_;
 };
 
 constexpr double kCentreWeight = 0.2;  // of the simplex
@@ -241,7 +242,7 @@ std::unique_ptr<ins::Estimator> makeNavigator(const NamedFilter& named, const Co
   if (named.alone) options.particles = 1;
   if (named.robust) options.loss = Loss(LossKind::Cauchy);
   const auto navigator = [&](auto filter) -> std::unique_ptr<ins::Estimator> {
-    return std::make_unique<Navigator<N, decltype(filter)>>(std::move(filter), config, named.smooth);
+    return std::make_unique<Navigator<N, decltype(filter)>>(std::move(filter), config, named.steady);
   };
   switch (named.kind) {
     case FilterKind::Bootstrap: return navigator(ParticleFilter<N>(options));

@@ -113,12 +113,12 @@ TEST(ParticleFilters, AgreeWithTheKalmanFilterOnALinearModelWithinWhatTheyDraw) 
   expectNear("ss_srupf, optimal proposal", distanceFromTheKalmanFilter(optimal, 20), 8);
 }
 
-TEST(ParticleFilters, ScatteredParticlesHaveTheNoiseBesideWhatTheyHad) {
+TEST(ParticleFilters, RoughenedParticlesHaveTheNoiseBesideWhatTheyHad) {
   const Matrix<2> noise_root = (Matrix<2>() << 0.5, 0, 2, 1).finished(),
                   sum = Matrix<2>::Identity() + noise_root * noise_root.transpose();
   const auto covarianceOf = [&](auto filter) -> Matrix<2> {
     EXPECT_TRUE(filter.start({}));
-    filter.scatter(noise_root);
+    filter.roughen(noise_root);
     return filter.belief().covariance;
   };
   EXPECT_LT(testing::relativeDifference(covarianceOf(ParticleFilter<2>(options(20000))), sum), 0.05);
@@ -129,14 +129,14 @@ TEST(ParticleFilters, ScatteredParticlesHaveTheNoiseBesideWhatTheyHad) {
   EXPECT_LT(testing::relativeDifference(covarianceOf(ssSrupf<2>(options(1))), sum), 1e-12);
 }
 
-TEST(ParticleFilters, ScatteredPointsCountTheirNoiseOnce) {
-  // GIVEN points scattered as wide as a whole prediction would draw them, WHEN z is read, THEN the answer is the Kalman
-  // filter's of the same noise
+TEST(ParticleFilters, RoughenedPointsCountTheirNoiseOnce) {
+  // GIVEN points roughened as widely as a whole prediction would draw them, WHEN z is read, THEN the answer is the
+  // Kalman filter's of the same noise
   const Walk walk;
   const Matrix<2> wide = (Matrix<2>() << 1.5, 0, 0, 0.5).finished();
   auto filter = ssSrupf<2>(options(20000), Weighting::OptimalProposal);
   EXPECT_TRUE(filter.start({}));
-  filter.scatter(wide);
+  filter.roughen(wide);
   filter.predict([&](const Vector<2>& x) { return walk.move(x); }, walk.Q_root);
   Gaussian<2> exact{Vector<2>::Zero(), Matrix<2>::Identity() + wide * wide.transpose()};
   exact = predictGaussian<2>(exact, {walk.F * exact.mean, walk.F, walk.Q_root * walk.Q_root.transpose()});

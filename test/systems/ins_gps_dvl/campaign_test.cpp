@@ -20,29 +20,43 @@ std::string insSuite(double duration, int runs, const std::string& estimators, c
 }
 
 TEST(InsSystem, FusionBeatsItsSensorsAndTheRobustFormOutliers) {
-  const auto suite = suiteOf(insSuite(300, 4, "[gps, dvl, ckf27, robust_ckf27]",
+  const auto suite = suiteOf(insSuite(300, 4, "[gnss_alone, dvl, kf27, robust_kf27]",
                                       "[{name: clean}, {name: bad, noise: {law: contaminated, epsilon: 0.1, K: 30}}]"));
   const auto runs = runAll(suite);
-  for (const char* sensor : {"gps", "dvl"})
-    EXPECT_LT(rmse(suite, runs, "clean", "ckf27"), rmse(suite, runs, "clean", sensor)) << sensor;
-  EXPECT_LT(rmse(suite, runs, "bad", "robust_ckf27"), 1.15 * rmse(suite, runs, "clean", "robust_ckf27"));
-  EXPECT_GT(rmse(suite, runs, "bad", "ckf27"), 1.3 * rmse(suite, runs, "bad", "robust_ckf27"));
+  for (const char* sensor : {"gnss_alone", "dvl"})
+    EXPECT_LT(rmse(suite, runs, "clean", "kf27"), rmse(suite, runs, "clean", sensor)) << sensor;
+  EXPECT_LT(rmse(suite, runs, "bad", "robust_kf27"), 1.15 * rmse(suite, runs, "clean", "robust_kf27"));
+  EXPECT_GT(rmse(suite, runs, "bad", "kf27"), 1.3 * rmse(suite, runs, "bad", "robust_kf27"));
 }
 
 TEST(InsSystem, TheBoundIsWhatTheFilterReachesOnGaussianNoise) {
-  const auto suite = suiteOf(insSuite(200, 16, "[ckf27]", "[{name: clean, gps_outages: [{begin: 120, end: 180}]}]"));
+  const auto suite = suiteOf(insSuite(200, 16, "[kf27]", "[{name: clean, gps_outages: [{begin: 120, end: 180}]}]"));
   for (const auto& [group, ratio] : overBound(suite)) {
     EXPECT_GT(ratio, 0.75) << group;  // of 16 runs, each with few independent errors
     EXPECT_LT(ratio, 1.35) << group;
   }
 }
 
+TEST(InsSystem, EveryFilterFusesIn27States) {
+  const auto suite = suiteOf(
+      insSuite(120, 1, "[gnss_alone, kf27, gated_kf27, student_t_kf27, mckf27, mixture_kf27]", "[{name: clean}]"));
+  const auto runs = runAll(suite);
+  for (const auto& name : suite.campaigns[0]->estimators)
+    EXPECT_LT(rmse(suite, runs, "clean", name), 1.2 * rmse(suite, runs, "clean", "gnss_alone")) << name;
+}
+
+TEST(InsSystem, OldNamesMeanThePresentEstimators) {
+  const auto suite = suiteOf(insSuite(200, 1, "[gps, ckf27, smooth_robust_ckf27, dvl]", "[{name: clean}]"));
+  EXPECT_EQ(suite.campaigns[0]->estimators,
+            (std::vector<std::string>{"gnss_alone", "kf27", "steady_robust_kf27", "dvl"}));
+}
+
 TEST(InsSystem, SaysWhatIsWrong) {
-  expectRefused(insSuite(200, 1, "[ckf28]", "[{name: clean}]"), "ckf28");
-  expectRefused(insSuite(200, 1, "[ckf27]", "[]"), "laws");
-  expectRefused(insSuite(50, 1, "[ckf27]", "[{name: clean}]"), "skip");
-  expectRefused(insSuite(200, 1, "[ckf27]", "[{name: clean, gps_outages: [{begin: 20, end: 10}]}]"), "end");
-  expectRefused(insSuite(200, 1, "[ckf27]", "[{name: clean, noise: {law: quantised, quantum: 1}}]"), "quantised");
+  expectRefused(insSuite(200, 1, "[kf28]", "[{name: clean}]"), "kf28");
+  expectRefused(insSuite(200, 1, "[kf27]", "[]"), "laws");
+  expectRefused(insSuite(50, 1, "[kf27]", "[{name: clean}]"), "skip");
+  expectRefused(insSuite(200, 1, "[kf27]", "[{name: clean, gps_outages: [{begin: 20, end: 10}]}]"), "end");
+  expectRefused(insSuite(200, 1, "[kf27]", "[{name: clean, noise: {law: quantised, quantum: 1}}]"), "quantised");
 }
 
 TEST(InsScenario, ReadsItsFileAndRefusesWhatItDoesNotKnow) {

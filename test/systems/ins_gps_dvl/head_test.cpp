@@ -21,7 +21,7 @@ void feed(LiveRun& live, const std::vector<Reading>& stream) {
   for (const auto& reading : stream) live.process(reading);
 }
 
-/// The first part of a stream, whose last reading is of the inertial unit.
+/// The first part of a stream, whose last reading is of the IMU.
 std::vector<Reading> until(std::vector<Reading> stream, double time) {
   while (!isInertial(stream.back()) || stampOf(stream.back()) > kEpoch + stampFromSeconds(time)) stream.pop_back();
   return stream;
@@ -30,7 +30,7 @@ std::vector<Reading> until(std::vector<Reading> stream, double time) {
 TEST(InsHead, ThePresentIsWhatSettlesLater) {
   const Scenario scenario = surveyOf(40);
   const auto stream = streamOf(scenario, 1);
-  LiveRun live(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  LiveRun live(optionsOf(scenario), {"kf27"}, makeEstimator);
   std::vector<NavigationSolution> present;
   for (const auto& reading : stream) {
     live.process(reading);
@@ -48,8 +48,8 @@ TEST(InsHead, ThePresentIsWhatSettlesLater) {
 TEST(InsHead, AnyOrderInsideTheLagGivesTheSamePresent) {
   const Scenario scenario = surveyOf(40);
   const auto stream = until(streamOf(scenario, 2), 37.43);
-  LiveRun sorted(optionsOf(scenario), {"robust_ckf27"}, makeEstimator),
-      late(optionsOf(scenario), {"robust_ckf27"}, makeEstimator);
+  LiveRun sorted(optionsOf(scenario), {"robust_kf27"}, makeEstimator),
+      late(optionsOf(scenario), {"robust_kf27"}, makeEstimator);
   feed(sorted, stream);
   feed(late, shuffled(stream, 1.9));
   ASSERT_TRUE(sorted.current(0) && late.current(0));
@@ -58,10 +58,10 @@ TEST(InsHead, AnyOrderInsideTheLagGivesTheSamePresent) {
 }
 
 TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
-  // GIVEN a run in waves, WHEN states are asked for between the stamps of the inertial unit, THEN their errors are
+  // GIVEN a run in waves, WHEN states are asked for between the stamps of the IMU, THEN their errors are
   // those at the stamps around them.
   Scenario scenario = surveyOf(40);
-  LiveRun live(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  LiveRun live(optionsOf(scenario), {"kf27"}, makeEstimator);
   feed(live, streamOf(scenario, 1));
   const Trajectory trajectory(scenario.track, scenario.duration);
   const auto error = [&](double time) {
@@ -89,7 +89,7 @@ TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
 TEST(InsHead, StatesAtItsStampsAreItsSolutionsAndThoseOutsideAreNone) {
   const Scenario scenario = surveyOf(40);
   const auto stream = until(streamOf(scenario, 1), 35);
-  LiveRun live(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  LiveRun live(optionsOf(scenario), {"kf27"}, makeEstimator);
   std::vector<NavigationSolution> present;
   for (const auto& reading : stream) {
     live.process(reading);

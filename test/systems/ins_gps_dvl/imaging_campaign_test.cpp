@@ -33,29 +33,29 @@ std::map<std::string, std::vector<std::map<std::string, double>>> windowsOf(cons
 
 TEST(ImagingSystem, TheImageFollowsTheNavigation) {
   // GIVEN a survey on which a sonar looks at a point from 10 m of track, WHEN it is focused along each estimate
-  const auto windows = windowsOf(imagingSuite("[error_free, ins, gps, robust_ckf27, smooth_robust_ckf27]"));
+  const auto windows = windowsOf(imagingSuite("[error_free, ins, gnss_alone, robust_kf27, steady_robust_kf27]"));
   for (std::size_t i = 0; i < 2; ++i) {
-    // THEN truth at the stamps of the inertial unit loses nothing
+    // THEN truth at the stamps of the IMU loses nothing
     const auto truth = windows.at("error_free").at(i);
     EXPECT_LT(truth.at("path_wavelengths"), 1e-3);
     EXPECT_LT(std::abs(truth.at("peak_loss")), 1e-3);
     EXPECT_LT(std::abs(truth.at("pslr_along")), 0.05);
     EXPECT_LT(std::abs(truth.at("islr_along")), 0.01);
-    // the smooth solution makes an image, within the targets after autofocus, and the others none
-    const auto smooth = windows.at("smooth_robust_ckf27").at(i);
-    EXPECT_LT(smooth.at("line_of_sight_wavelengths"), 1.0 / 32);
-    EXPECT_LT(smooth.at("along_wavelengths"), 1.0 / 32);
-    EXPECT_LT(std::abs(smooth.at("pslr_range")), 0.5);
-    EXPECT_LT(std::abs(smooth.at("islr_range")), 1);
-    EXPECT_LT(std::abs(smooth.at("autofocus_pslr_along")), 0.5);
-    EXPECT_LT(std::abs(smooth.at("autofocus_islr_along")), 1);
-    for (const char* name : {"ins", "gps", "robust_ckf27"})
-      EXPECT_GT(windows.at(name).at(i).at("peak_loss"), smooth.at("peak_loss") + 6) << name;
+    // the steady solution makes an image, within the targets after autofocus, and the others none
+    const auto steady = windows.at("steady_robust_kf27").at(i);
+    EXPECT_LT(steady.at("line_of_sight_wavelengths"), 1.0 / 32);
+    EXPECT_LT(steady.at("along_wavelengths"), 1.0 / 32);
+    EXPECT_LT(std::abs(steady.at("pslr_range")), 0.5);
+    EXPECT_LT(std::abs(steady.at("islr_range")), 1);
+    EXPECT_LT(std::abs(steady.at("autofocus_pslr_along")), 0.5);
+    EXPECT_LT(std::abs(steady.at("autofocus_islr_along")), 1);
+    for (const char* name : {"ins", "gnss_alone", "robust_kf27"})
+      EXPECT_GT(windows.at(name).at(i).at("peak_loss"), steady.at("peak_loss") + 6) << name;
   }
 }
 
 TEST(ImagingSystem, SaysWhatIsWrong) {
-  expectRefused(imagingSuite("[ckf28]"), "ckf28");
+  expectRefused(imagingSuite("[kf28]"), "kf28");
   expectRefused(imagingSuite("[]"), "estimators");
   expectRefused("{campaigns: [{name: images, system: imaging, scenario: " + kConfig +
                     "scenarios/ins/survey.yaml, estimators: [ins], laws: [{name: clean}]}]}",

@@ -16,7 +16,7 @@ namespace {
 template <class Filter>
 using OptionsOf = typename Navigator<Filter>::Options;
 
-/// Runs over a recording; `after` sees the navigator behind each reading of the inertial unit.
+/// Runs over a recording; `after` sees the navigator behind each reading of the IMU.
 template <class Filter, class After>
 void run(Navigator<Filter>& navigator, const Recording& recording, const After& after) {
   auto next = recording.aiding.begin();
@@ -74,7 +74,7 @@ TEST(InsNavigator, FusionIsBetterThanItsSensors) {
     fused += std::pow(positionError(KalmanFilter<kStates>(), shortScenario(600), seed), 2) / 4;
     alone += std::pow(positionError(Unaided(), shortScenario(600), seed), 2) / 4;
   }
-  std::cout << "ckf27 " << std::sqrt(fused) << " m, INS alone " << std::sqrt(alone) << " m\n";
+  std::cout << "kf27 " << std::sqrt(fused) << " m, INS alone " << std::sqrt(alone) << " m\n";
   EXPECT_LT(std::sqrt(fused), 0.75 * 2.9);
   EXPECT_GT(std::sqrt(alone), 10 * std::sqrt(fused));
 }
@@ -141,7 +141,7 @@ TEST(InsNavigator, TheSolutionByGnssAloneHasTheStampsOfItsFixes) {
   const Recording recording = recordingOf(scenario, 5);
   Config config;
   config.parameters = scenario.parameters;
-  const auto estimator = makeEstimator("gps", config);
+  const auto estimator = makeEstimator("gnss_alone", config);
   estimator->start(recording.start, 0);
   Output output;
   auto next = recording.aiding.begin();
@@ -159,7 +159,7 @@ TEST(InsNavigator, TheSolutionByGnssAloneHasTheStampsOfItsFixes) {
 }
 
 TEST(InsNavigator, TakesReadingsBetweenThoseOfTheInertialUnit) {
-  // GIVEN sensors at odd rates, so that their stamps lie between those of the inertial unit
+  // GIVEN sensors at odd rates, so that their stamps lie between those of the IMU
   Scenario scenario = shortScenario(60);
   scenario.sensor(Sensor::Dvl).rate = scenario.parameters.dvl_rate = 4.7;
   scenario.sensor(Sensor::Gps).rate = 0.93;
@@ -184,22 +184,22 @@ TEST(InsNavigator, SmoothSolutionDoesNotJumpWhereAFixPullsTheFusedOne) {
   const Trajectory trajectory(scenario.track, scenario.duration);
   const Recording recording = simulate(scenario, trajectory, 4);
   Navigator<KalmanFilter<kStates>> navigator({}, scenario.parameters, recording.start, 0, {});
-  double fused_jump = 0, smooth_jump = 0;
-  Vector<3> fused_error = Vector<3>::Zero(), smooth_error = Vector<3>::Zero();
+  double fused_jump = 0, steady_jump = 0;
+  Vector<3> fused_error = Vector<3>::Zero(), steady_error = Vector<3>::Zero();
   run(navigator, recording, [&](const auto& n) {
     const double time = secondsBetween(0, n.stamp());
     const auto truth = trajectory.at(time).state;
-    const Vector<3> fused = displacement(truth, n.fused()), smooth = displacement(truth, n.smooth());
+    const Vector<3> fused = displacement(truth, n.fused()), steady = displacement(truth, n.steady());
     if (time > 60) {
       fused_jump = std::max(fused_jump, (fused - fused_error).head<2>().norm());
-      smooth_jump = std::max(smooth_jump, (smooth - smooth_error).head<2>().norm());
+      steady_jump = std::max(steady_jump, (steady - steady_error).head<2>().norm());
     }
     fused_error = fused;
-    smooth_error = smooth;
+    steady_error = steady;
   });
   EXPECT_GT(fused_jump, 0.02);
-  EXPECT_LT(smooth_jump, 0.001) << "from one reading of the inertial unit to the next";
-  EXPECT_LT((fused_error - smooth_error).head<2>().norm(), 10) << "it stays near";
+  EXPECT_LT(steady_jump, 0.001) << "from one reading of the IMU to the next";
+  EXPECT_LT((fused_error - steady_error).head<2>().norm(), 10) << "it stays near";
 }
 
 TEST(InsNavigator, ReportsLateReadings) {
@@ -218,7 +218,7 @@ TEST(InsNavigator, ReportsLateReadings) {
 }
 
 TEST(InsNavigator, LivesThroughAGapOfTheInertialUnit) {
-  // GIVEN an inertial unit that is silent for two seconds
+  // GIVEN an IMU that is silent for two seconds
   const Scenario scenario = shortScenario(120);
   const Trajectory trajectory(scenario.track, scenario.duration);
   Recording recording = simulate(scenario, trajectory, 2);
@@ -253,7 +253,7 @@ Scenario withMicronavigation(Scenario scenario) {
 Vector<2> velocityErrors(const Scenario& scenario, std::uint64_t seed) {
   const Trajectory trajectory(scenario.track, scenario.duration);
   const Recording recording = simulate(scenario, trajectory, seed);
-  Ckf27 navigator({}, scenario.parameters, recording.start, 0, {});
+  Kf27 navigator({}, scenario.parameters, recording.start, 0, {});
   Vector<2> squares = Vector<2>::Zero();
   int count = 0;
   run(navigator, recording, [&](const auto& n) {

@@ -36,7 +36,7 @@ double positionError(const Scenario& scenario, const NavigationSolution& solutio
 }
 
 Lack lackOf(const std::vector<Reading>& stream, const SessionOptions& options) {
-  EstimatorRun session(options, {"ckf27"}, makeEstimator);
+  EstimatorRun session(options, {"kf27"}, makeEstimator);
   for (const auto& reading : stream) session.process(reading);
   session.finish();
   EXPECT_TRUE(session.lanes()[0].output.solutions.empty());
@@ -203,7 +203,7 @@ TEST(InsSession, DuplicatesChangeNothing) {
     doubled.push_back(stream[i]);
     if (i % 10 == 0) doubled.push_back(stream[i]);
   }
-  EstimatorRun session(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  EstimatorRun session(optionsOf(scenario), {"kf27"}, makeEstimator);
   for (const auto& reading : doubled) session.process(reading);
   session.finish();
   const Output once = settled(stream, optionsOf(scenario));
@@ -219,7 +219,7 @@ TEST(InsSession, AGapOfTheInertialUnitIsBridgedCountedAndRecoveredFrom) {
     const double time = secondsBetween(kEpoch, stampOf(r));
     return isInertial(r) && time > 40 && time < 42;
   };
-  EstimatorRun session(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  EstimatorRun session(optionsOf(scenario), {"kf27"}, makeEstimator);
   for (const auto& reading : without(streamOf(scenario, 1), in_gap)) session.process(reading);
   session.finish();
   EXPECT_EQ(session.inertial().verdicts[static_cast<std::size_t>(ImuVerdict::Bridged)], 1u);
@@ -231,7 +231,7 @@ TEST(InsSession, AWrongRateIsCounted) {
   const Scenario scenario = surveyOf(20);
   int count = 0;
   const auto stream = without(streamOf(scenario, 1), [&](const Reading& r) { return isInertial(r) && ++count % 2; });
-  EstimatorRun session(optionsOf(scenario), {"ckf27"}, makeEstimator);
+  EstimatorRun session(optionsOf(scenario), {"kf27"}, makeEstimator);
   for (const auto& reading : stream) session.process(reading);
   session.finish();
   EXPECT_NEAR(session.inertial().mean_period, 0.02, 1e-9);

@@ -73,7 +73,7 @@ std::vector<Reading> without(std::vector<Reading> stream, const Unwanted& unwant
 
 /// The settled output of one estimator over a stream.
 inline Output settled(const std::vector<Reading>& stream, const SessionOptions& options,
-                      const std::string& name = "ckf27") {
+                      const std::string& name = "kf27") {
   EstimatorRun session(options, {name}, makeEstimator);
   for (const auto& reading : stream) session.process(reading);
   session.finish();

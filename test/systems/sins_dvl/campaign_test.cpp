@@ -41,7 +41,7 @@ TEST(SinsSystem, TheRobustFormStandsOutliersOfTheDvl) {
 
 TEST(SinsSystem, ReportsParticlesConvergenceAndDrift) {
   const auto suite = suiteOf(
-      sinsSuite("large_angle", 60, 1, "[ss_srupf, ukf, ckf27]", "[{name: five}, {name: thirty, heading_deg: 30}]"));
+      sinsSuite("large_angle", 60, 1, "[ss_srupf, ukf, kf27]", "[{name: five}, {name: thirty, heading_deg: 30}]"));
   EXPECT_EQ(suite.campaigns[0]->particles, 100);
   for (const auto& reports : runAll(suite)) {
     const auto& found = reports.front();
@@ -55,7 +55,7 @@ TEST(SinsSystem, ReportsParticlesConvergenceAndDrift) {
     EXPECT_LE(*found.convergence->after, 30) << "and stays for 30 s of 60";
     EXPECT_DOUBLE_EQ(*found.aperture_wavelengths, *found.aperture_across / 0.015);
     EXPECT_FALSE(reports[1].effective_size) << "ukf is a filter alone";
-    EXPECT_FALSE(reports[2].effective_size) << "ckf27 has no particles";
+    EXPECT_FALSE(reports[2].effective_size) << "kf27 has no particles";
   }
 }
 

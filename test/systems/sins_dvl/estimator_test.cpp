@@ -72,7 +72,7 @@ TEST(SinsEstimator, GivesASolutionAtEveryReadingOfTheUnitAndAuditsEveryOther) {
       EXPECT_GE(audit.effective_size, named.alone ? 0 : 1);
       EXPECT_LE(audit.effective_size, named.alone ? 0 : 50.0001);
     }
-    EXPECT_EQ(outcome.solutions.back().covariance.has_value(), !named.smooth) << named.name;
+    EXPECT_EQ(outcome.solutions.back().covariance.has_value(), !named.steady) << named.name;
     EXPECT_LT(outcome.position_error.norm(), 5) << named.name;
   }
   EXPECT_EQ(makeEstimator("srukf", {}), nullptr);
@@ -203,7 +203,7 @@ TEST(SinsEstimator, ACopyGoesItsOwnWayAndLeavesTheOther) {
   Config config;
   config.parameters = scenario.parameters;
   config.particles.particles = 40;
-  for (const std::string name : {"pf", "upf", "ss_srupf", "smooth_ss_srupf"}) {
+  for (const std::string name : {"pf", "upf", "ss_srupf", "steady_ss_srupf"}) {
     const auto estimator = makeEstimator(name, config);
     estimator->start(recording.start, 0);
     ins::Output output, copied;

@@ -54,18 +54,18 @@ struct WrongStart {
   }
 
   void follow(const ImuReading& reading) {
-    felt.add(reading.rate_body, reading.force_body, 0.01);
+    preintegrated.add(reading.rate_body, reading.force_body, 0.01);
     ins->step(reading);
-    if (felt.duration() < 1 - 1e-6) return;
-    errors = Motion<kStates>({}, last, felt)(errors);
+    if (preintegrated.duration() < 1 - 1e-6) return;
+    errors = Motion<kStates>({}, last, preintegrated)(errors);
     last = ins->state();
-    felt = {};
+    preintegrated = {};
   }
 
   ins::Trajectory trajectory;
   Vector<kStates> errors;
   std::optional<Mechanisation> ins;
-  Preintegration felt;
+  Preintegration preintegrated;
   NavigationState last;
 };
 
@@ -151,9 +151,9 @@ TEST(SinsDvlModel, HasThePapersDifferentialEquations) {
       ins.q_nav_body * force - truth.q_nav_body * Vector<3>(force - nabla) + pull(ins) - pull(truth);  // (B.2)
   // WHEN the model moves them over a short time
   const double T = 1e-3;
-  Preintegration felt;
-  felt.add(rate, force, T);
-  const Vector<kStates> change = (Motion<kStates>({}, ins, felt)(x) - x) / T;
+  Preintegration preintegrated;
+  preintegrated.add(rate, force, T);
+  const Vector<kStates> change = (Motion<kStates>({}, ins, preintegrated)(x) - x) / T;
   // THEN they change at these rates, up to the second derivative
   EXPECT_LT((change.segment<4>(kQuaternion) - dq_rate).norm(), 1e-4 * std::max(1.0, dq_rate.norm()));
   EXPECT_LT((change.segment<3>(kVelocity) - dv_rate).norm(), 2e-3 * dv_rate.norm());
@@ -214,10 +214,10 @@ TEST(SinsDvlModel, StartsAndDrivesErrorsWithFullRank) {
   Vector<9> expected;
   expected << 0.05, 0.05, 0.05, 0.06, 0.06, 1, Vector<3>(0.05, 0.05, 0.3) * kRadPerDeg;
   EXPECT_LT((sigma - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff(), 1e-4);
-  Preintegration felt;
-  felt.add(Vector<3>::Zero(), Vector<3>(0, 0, 9.8), 1);
-  EXPECT_GT((Motion<kStates>(parameters, ins, felt).noiseRoot().diagonal().minCoeff()), 0);
-  EXPECT_GT((Motion<kPaperStates>(parameters, ins, felt).noiseRoot().diagonal().minCoeff()), 0);
+  Preintegration preintegrated;
+  preintegrated.add(Vector<3>::Zero(), Vector<3>(0, 0, 9.8), 1);
+  EXPECT_GT((Motion<kStates>(parameters, ins, preintegrated).noiseRoot().diagonal().minCoeff()), 0);
+  EXPECT_GT((Motion<kPaperStates>(parameters, ins, preintegrated).noiseRoot().diagonal().minCoeff()), 0);
 }
 
 TEST(InSmallAngles, ReadTheSameDvl) {

@@ -9,7 +9,7 @@
 
 namespace sas_motion {
 
-/// The same belief as a filter by covariances and one by roots keep it.
+/// Conversions between mean and root, and the belief of a filter by covariances or by roots.
 template <class Belief>
 struct BeliefForm;
 

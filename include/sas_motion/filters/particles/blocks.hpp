@@ -2,53 +2,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// The algebra of a square-root filter for a block of particles at once, by vector instructions: every particle has a
-/// lane of its own, and what happens in one lane does not touch another.
+/// The algebra of a square-root filter for a block of particles by vector instructions. Every particle has a lane of
+/// its own, independent of the others.
 ///
-/// An element of a vector or matrix is kLanes numbers beside each other, one a particle. Matrices lie row after row; of
-/// a lower triangular root the upper triangle is left out, so that element (i, j) is number i (i + 1) / 2 + j. The best
-/// instructions that the machine has are chosen when the program runs; another machine's results differ from these in
-/// rounding alone.
+/// An element of a vector or matrix is kLanes adjacent numbers, one for each particle. Matrices are stored by rows. A
+/// lower triangular root is stored without its upper triangle: element (i, j) has the index i (i + 1) / 2 + j. The best
+/// instructions of the machine are chosen at run time; results of other machines differ in rounding alone.
 namespace sas_motion::blocks {
 
 constexpr int kLanes = 8;
 constexpr int kMostRows = 8;  ///< of a measurement
 
-/// Whether there are vector instructions at all; where the library was built without Highway nothing below may be
-/// called.
+/// Whether there are vector instructions. In a library built without Highway nothing below may be called.
 bool available();
-/// The name of the instruction set in use.
+/// Returns the name of the instruction set in use.
 const char* target();
 
-/// L xi for the corners of the spherical simplex, whose coordinate in all dimensions after its own is -c, `shared` of
-/// each dimension. offsets: states x (states + 2).
+/// Computes L xi for the corners of the spherical simplex. In each dimension all earlier corners share the coordinate
+/// -c; `shared` holds c. offsets: states x (states + 2).
 void spread(const double* root, const double* shared, int states, double* offsets);
 
-/// Means of where points landed, and instead of these their deviations, each times the root of its weight. `landed`:
-/// rows x points; weights are not in lanes.
+/// Computes the means of the images and replaces these by their deviations, each times the root of its weight.
+/// `landed`: rows x points; the weights are not in lanes.
 void average(const double* mean_weights, const double* root_weights, int rows, int points, double* landed,
              double* mean);
 
-/// As addSquares of math/square_root.hpp. `A`, size x count, is spoilt.
+/// Does addSquares() of math/square_root.hpp in each lane. `A`, size x count, is overwritten.
 void addSquares(double* root, int size, double* A, int count);
 
-/// What condition() is told, and answers.
+/// Arguments and results of condition().
 struct Conditioning {
   int states = 0, rows = 0, points = 0;
   const double* root_weights = nullptr;  ///< of the points; not in lanes
-  const double* offsets = nullptr;       ///< of the points from the mean, of spread()
+  const double* offsets = nullptr;       ///< of the points from the mean, from spread()
   const double* innovation = nullptr;    ///< rows
-  double* deviations = nullptr;          ///< of h, of average(); spoilt
+  double* deviations = nullptr;          ///< of h, from average(); overwritten
   double* S_root = nullptr;              ///< of the noise, then of the innovation's covariance
-  double* gain = nullptr;                ///< rows x states of room
+  double* gain = nullptr;                ///< workspace, rows x states
   double* mean = nullptr;                ///< of the prior, then of the posterior
-  double* root = nullptr;                ///< likewise
+  double* root = nullptr;                ///< of the prior, then of the posterior
   double* nis = nullptr;                 ///< one element
   double* done =
-      nullptr;  ///< one element: 1, or 0 where lost rank forbade it or numbers are not finite: mean and root are spoilt
+      nullptr;  ///< one element: 1, or 0 where a root is singular or not finite; mean and root are then invalid
 };
 
-/// One measurement, by taking the columns of K S_root out of the root. [Merwe2001]
+/// Fuses one measurement by a downdate of the root with the columns of K S_root. [Merwe2001]
 void condition(const Conditioning& block);
 
 /// sum += weight (root root^T + offset offset^T), lower triangular. `weight`: one element.

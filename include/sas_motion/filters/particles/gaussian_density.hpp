@@ -6,7 +6,7 @@
 
 namespace sas_motion {
 
-/// ln N(residual; 0, root root^T) without the constant in 2 pi; not finite where the root has lost rank.
+/// ln N(residual; 0, root root^T) without the constant in 2 pi; not finite where the root is singular.
 template <int M>
 double logDensity(const Vector<M>& residual, const Matrix<M>& root) {
   return -0.5 * root.template triangularView<Eigen::Lower>().solve(residual).squaredNorm() -

@@ -9,7 +9,7 @@
 
 namespace sas_motion {
 
-/// As many numbers for each of a block of particles, as blocks.hpp has them.
+/// `Size` numbers for each particle of a block, in the layout of blocks.hpp.
 template <int Size>
 class Lanes {
  public:
@@ -24,7 +24,7 @@ class Lanes {
     return none == 0;
   }
 
-  /// Lanes from `count` > 0 on become copies of the last before them, so that they hold numbers.
+  /// Copies lane `count` - 1 to all lanes after it, so that they hold valid numbers.
   void fillFrom(int count) {
     if (count == blocks::kLanes) return;
     for (int element = 0; element < Size; ++element)
@@ -53,11 +53,11 @@ class LaneMatrix : public Lanes<Rows * Cols> {
   }
 };
 
-/// Lower triangular.
+/// A lower triangular matrix.
 template <int N>
 class LaneRoot : public Lanes<N*(N + 1) / 2> {
  public:
-  /// From `root(lane)`.
+  /// Copies from `root(lane)`.
   template <class Roots>
   void set(const Roots& root) {
     const double* from[blocks::kLanes];
@@ -69,7 +69,7 @@ class LaneRoot : public Lanes<N*(N + 1) / 2> {
   void setAll(const Matrix<N>& root) {
     set([&](int) -> const Matrix<N>& { return root; });
   }
-  /// The lower triangle of `root` becomes that of a lane; the rest stays.
+  /// Copies a lane to the lower triangle of `root`; the rest stays.
   void get(int lane, Matrix<N>& root) const {
     for (int col = 0; col < N; ++col)
       for (int row = col; row < N; ++row) root(row, col) = (*this)(at(row, col), lane);

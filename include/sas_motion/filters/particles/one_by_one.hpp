@@ -10,7 +10,7 @@
 
 namespace sas_motion {
 
-/// What a particle filter asks of the filters of a block of particles, done by one filter for each in turn.
+/// Runs the filters of a block of particles one after the other.
 ///
 /// `belief(k)` is the k-th of `count` beliefs. The noise is given by its root.
 template <class Filter>
@@ -18,12 +18,12 @@ class OneByOne {
  public:
   using Belief = typename Filter::Belief;
   static constexpr int N = decltype(Belief::mean)::RowsAtCompileTime;
-  static constexpr int kTogether = 24;  ///< particles of a block
+  static constexpr int kTogether = 24;  ///< particles in a block
 
   explicit OneByOne(const Filter& filter) : filter_(filter) {}
   const Filter& one() const { return filter_; }
 
-  /// x' = f(x) + w; calls `lost(k)` where that is not finite, and leaves that belief.
+  /// Predicts by x' = f(x) + w. Calls `lost(k)` where that is not finite; that belief stays.
   template <class Beliefs, class Function, class Lost>
   void predict(int count, const Beliefs& belief, const Function& f, const Matrix<N>& Q_root, const Lost& lost) const {
     const Matrix<N> noise = Form::noise(Q_root);
@@ -34,8 +34,8 @@ class OneByOne {
         lost(k);
   }
 
-  /// z = h(x) + v; calls `weigh(k, log_likelihood)`, without the constant in 2 pi, and not a number where the belief
-  /// could not read and stays.
+  /// Updates with z = h(x) + v. Calls `weigh(k, log_likelihood)`, without the constant in 2 pi; the likelihood is NaN
+  /// where the update fails and the belief stays.
   template <int M, class Beliefs, class Function, class Difference, class Weigh>
   void update(int count, const Beliefs& belief, const Vector<M>& z, const Function& h, const Matrix<M>& R_root,
               const Difference& difference, const Weigh& weigh) const {

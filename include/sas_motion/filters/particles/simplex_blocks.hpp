@@ -11,11 +11,11 @@
 
 namespace sas_motion {
 
-/// OneByOne<SimplexFilter<N>>, its algebra by vector instructions, a particle a lane; f and h are called for each
-/// particle and point. The answers are the same to rounding. It goes one by one where there are no such instructions,
+/// OneByOne<SimplexFilter<N>> by vector instructions, with one lane for each particle; f and h are called for each
+/// particle and point. The results are the same to rounding. OneByOne itself runs where there are no such instructions,
 /// for a block of one, and for a particle whose root cannot be downdated.
 ///
-/// Its room is on the stack: a step allocates nothing.
+/// A step allocates nothing.
 template <int N>
 class SimplexBlocks {
  public:
@@ -106,12 +106,12 @@ class SimplexBlocks {
   struct Room {
     LaneMatrix<N> mean;
     LaneRoot<N> root;
-    LaneMatrix<N, kPoints> offsets;  // of the points from the mean; in a prediction then where they land
+    LaneMatrix<N, kPoints> offsets;  // of the points from the mean; in a prediction then their images
   };
 
   template <int M>
   struct Reading {
-    LaneMatrix<M, kPoints> deviations;  // where h sends the points, then from their mean
+    LaneMatrix<M, kPoints> deviations;  // images of the points by h, then their deviations from the mean
     LaneMatrix<M> mean, innovation;
     LaneRoot<M> S_root;
     LaneMatrix<M, N> gain;
@@ -133,8 +133,8 @@ class SimplexBlocks {
     room.root.get(lane, belief.root);
   }
 
-  /// Where a function sends the points; `landed` may be the room's offsets. All lanes' points are laid out before the
-  /// function is called, which would otherwise wait for what has just been written.
+  /// Maps the points by a function; `landed` may be the room's offsets. The points of all lanes are written before the
+  /// function is called, so that it need not wait for these writes.
   template <int M, class Function>
   void land(int count, const Room& room, const Function& function, LaneMatrix<M, kPoints>& landed) const {
     Vector<N> x[blocks::kLanes];
@@ -149,7 +149,7 @@ class SimplexBlocks {
     }
   }
 
-  /// Means, weighted deviations and innovations of where h sent the points.
+  /// Computes means, weighted deviations and innovations of the images by h.
   template <int M, class Difference>
   void compare(int count, const Vector<M>& z, const Difference& difference, Reading<M>& reading) const {
     if constexpr (std::is_same_v<Difference, PlainDifference>) {

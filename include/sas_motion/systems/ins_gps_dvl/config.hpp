@@ -24,7 +24,7 @@ struct Settings {
 
   SessionOptions session;
   std::array<MessageOptions, kSensors> messages;  ///< by Sensor
-  double imu_time_offset = 0;                     ///< added to the stamps of the inertial unit [s]
+  double imu_time_offset = 0;                     ///< added to the stamps of the IMU [s]
   double surface = 0;       ///< height of the water's surface above the ellipsoid: depths are below it [m]
   double output_rate = 50;  ///< of estimates [1/s]
 
@@ -38,7 +38,7 @@ void readSettings(YamlSection& yaml, Settings& settings);
 // What all systems with an INS have in common. All throw ConfigError.
 /// How an aiding sensor's messages are taken, apart from their noise; the last keys of its section.
 void readMessages(YamlSection& yaml, MessageOptions& options);
-/// What the inertial unit can measure, and its stamps.
+/// What the IMU can measure, and its stamps.
 void readUnit(YamlSection& yaml, Mechanisation::Options& imu, Settings& settings);
 /// How the INS starts; its misalignment is at most `largest_deg`.
 void readStart(YamlSection& yaml, SessionOptions& session, double largest_deg);

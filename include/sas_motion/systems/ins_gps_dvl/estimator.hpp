@@ -57,7 +57,7 @@ class Estimator {
   virtual void start(const NavigationState& state, Stamp stamp) = 0;
   /// Takes one reading of a sensor that aids. Data never throws.
   virtual void process(const Aiding& reading, Output& output) = 0;
-  /// Takes one reading of the inertial unit, and says what became of it.
+  /// Takes one reading of the IMU, and says what became of it.
   virtual ImuVerdict process(const ImuReading& reading, Output& output) = 0;
   /// The end of the data, or a pause: settles everything that is still open.
   virtual void finish(Output&) {}
@@ -69,8 +69,10 @@ class Estimator {
   virtual std::unique_ptr<Estimator> clone() const { return nullptr; }
 };
 
-/// ckf27, open_loop_ckf27, robust_ckf27, the sensors alone (ins, gps, dvl, and gps_ckf27 ... less their estimated
-/// errors), and smooth_ckf27, smooth_robust_ckf27; null for any other name.
+/// Makes one of estimatorNames(); null for any other name. For each filter FILTER of 27 states, e.g. kf or robust_kf:
+/// FILTER27 is the fused solution, gnss_FILTER27 and dvl_FILTER27 are that sensor less its estimated errors, and
+/// steady_FILTER27 is a track for imaging. open_loop_kf27 does not correct the INS. ins, gnss_alone and dvl are the
+/// sensors alone.
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
 
 /// The names makeEstimator knows.

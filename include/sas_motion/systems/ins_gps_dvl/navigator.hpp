@@ -10,7 +10,7 @@
 #include "sas_motion/filters/kalman_filter.hpp"
 #include "sas_motion/filters/robust_kalman_filter.hpp"
 #include "sas_motion/navigation/bridged_gap.hpp"
-#include "sas_motion/navigation/smooth_track.hpp"
+#include "sas_motion/navigation/steady_track.hpp"
 #include "sas_motion/systems/ins_gps_dvl/model.hpp"
 
 namespace sas_motion::ins {
@@ -30,18 +30,18 @@ inline Audit refusal(const Aiding& reading, Verdict verdict, std::string_view re
 struct NavigatorOptions {
   bool feedback = true;
   double step = 0.2;  ///< longest time of one prediction of the filter [s]
-  SmoothTrack::Options smooth;
+  SteadyTrack::Options steady;
   Mechanisation::Options imu;
   BridgedGap bridge;
 };
 
-/// The variance by a part of a gap of the inertial unit in the model's units, see BridgedGap.
+/// The variance by a part of a gap of the IMU in the model's units, see BridgedGap.
 Errors gapVariance(const BridgedGap& bridge, double gap, double part);
 
-/// Mechanises the inertial unit, estimates its errors and those of GPS and DVL with a filter, and takes them out: of
+/// Mechanises the IMU, estimates its errors and those of GPS and DVL with a filter, and takes them out: of
 /// the INS itself (feedback) or of its output (open loop). (C.4)
 ///
-/// Readings that aid are held until the inertial unit has come to their stamp; those before its last stamp are stale.
+/// Readings that aid are held until the IMU has come to their stamp; those before its last stamp are stale.
 template <class Filter>
 class Navigator {
  public:
@@ -61,8 +61,8 @@ class Navigator {
   NavigationState fused() const { return corrected(ins_.state(), belief_.mean, model_.unit()); }
   /// Of the body over the ground; body [rad/s].
   Vector<3> rate_body() const { return rateOverGround(ins_.state(), ins_.rate_body()); }
-  /// The position of the INS by the fix that the last reading of the IMU let be fused, at the fix's own stamp; nothing where
-  /// there was none. Its estimated errors are taken out; the attitude is the fused one.
+  /// The position of the INS by the fix that the last reading of the IMU let be fused, at the fix's own stamp; nothing
+  /// where there was none. Its estimated errors are taken out; the attitude is the fused one.
   struct Fix {
     Stamp stamp = 0;
     NavigationState state;
@@ -71,7 +71,7 @@ class Navigator {
   /// The position by dead reckoning with the DVL, likewise.
   NavigationState dvl() const;
   /// For imaging: without the jumps of readings.
-  NavigationState smooth() const { return smooth_.state(); }
+  NavigationState steady() const { return steady_.state(); }
   const Gaussian<kStates>& belief() const { return belief_; }  ///< errors of the INS as it stands
   const ErrorModel& model() const { return model_; }
 
@@ -95,12 +95,12 @@ class Navigator {
   Vector<3> force_sum_ = Vector<3>::Zero(), velocity_sum_ = Vector<3>::Zero();
   Matrix<3> C_sum_ = Matrix<3>::Zero();
   NavigationState reckoned_;  // by the DVL, with its errors
-  SmoothTrack smooth_;
+  SteadyTrack steady_;
   std::optional<Vector<3>> velocity_body_;  // of the INS, by the DVL's last reading
   std::optional<Fix> gps_;
 };
 
-using Ckf27 = Navigator<KalmanFilter<kStates>>;
-using RobustCkf27 = Navigator<RobustKalmanFilter<kStates>>;
+using Kf27 = Navigator<KalmanFilter<kStates>>;
+using RobustKf27 = Navigator<RobustKalmanFilter<kStates>>;
 
 }  // namespace sas_motion::ins

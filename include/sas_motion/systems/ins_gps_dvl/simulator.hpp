@@ -26,10 +26,10 @@ struct Recording {
   std::vector<LabelledAiding> aiding;  ///< in time order
 };
 
-/// The inertial unit along a trajectory without any error.
+/// The IMU along a trajectory without any error.
 std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, double duration);
 
-/// Adds constants, a Gauss-Markov drift and white noise to what an inertial unit reads. (C.1)
+/// Adds constants, a Gauss-Markov drift and white noise to what an IMU reads. (C.1)
 void addImuErrors(std::vector<ImuReading>& readings, const Parameters& parameters, std::uint64_t seed);
 
 /// One of the sensors that aid: its rows of white noise, when it says nothing, and when it says the same again.

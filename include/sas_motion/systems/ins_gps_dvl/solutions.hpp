@@ -11,7 +11,7 @@
 namespace sas_motion::ins {
 
 /// What one run of a navigator has solutions of.
-enum class Source { Fused, Gps, Dvl, Smooth };
+enum class Source { Fused, Gnss, Dvl, Steady };
 /// What a run of a navigator is made with.
 struct FilterKind {
   std::string filter;     ///< its name, see withFilter(); empty: none, so that nothing is fused
@@ -31,6 +31,9 @@ struct NamedSolution {
 const std::vector<NamedSolution>& namedSolutions();
 /// Null for an unknown name.
 const NamedSolution* findSolution(const std::string& name);
+
+/// What an estimator is called now whose name was another one before; any other name as it is.
+std::string currentName(const std::string& name);
 
 /// Calls `visit` with the filter of this kind and the options of its navigator.
 template <class Visit>

@@ -36,14 +36,16 @@ struct NamedFilter {
   Weighting weighting = Weighting::Mixture;
   bool alone = false;   ///< one particle
   bool robust = false;  ///< with a loss against outliers
-  bool smooth = false;  ///< for imaging: without the jumps of readings, see SmoothTrack
+  bool steady = false;  ///< for imaging: without the jumps of readings, see SteadyTrack
 };
 const std::vector<NamedFilter>& namedFilters();
 /// Null for an unknown name.
 const NamedFilter* findFilter(const std::string& name);
 
-/// The fusion by small angles, beside the named filters: ckf27, robust_ckf27 and so on.
+/// The fusion by small angles, beside the named filters: kf27, robust_kf27 and so on.
 const std::vector<std::string>& fusionNames();
+/// What an estimator is called now whose name was another one before; any other name as it is.
+std::string currentName(const std::string& name);
 
 /// pf, upf, ss_srupf, their forms, ss_srukf, ukf, and beside them the fusion by small angles;
 /// null for any other name. The INS is mechanised from its readings and, but for the latter, never corrected; its

@@ -53,8 +53,8 @@ Matrix<4, 3> leftTurn(const Eigen::Quaterniond& q);
 /// q [0, w] = U(q) w.
 Matrix<4, 3> rightTurn(const Eigen::Quaterniond& q);
 
-/// Where a body comes that began at `state` and felt `felt`, if its unit has drift `eps` and bias `nabla`.
-NavigationState moved(const NavigationState& state, const Preintegration& felt, const Vector<3>& eps,
+/// Moves a state by preintegrated readings of an IMU that has the drift `eps` and the bias `nabla`.
+NavigationState moved(const NavigationState& state, const Preintegration& preintegrated, const Vector<3>& eps,
                       const Vector<3>& nabla);
 
 /// The error dynamics over an interval, exactly: the INS and what an error says is the truth are both moved, and
@@ -63,7 +63,7 @@ template <int N>
 class Motion {
  public:
   /// `ins`: at the interval's beginning.
-  Motion(const Parameters& parameters, const NavigationState& ins, const Preintegration& felt);
+  Motion(const Parameters& parameters, const NavigationState& ins, const Preintegration& preintegrated);
 
   Vector<N> operator()(const Vector<N>& x) const;
   /// Lower triangular root of the noise over the interval. States that are constants get a little of it, so that it has
@@ -73,7 +73,7 @@ class Motion {
 
  private:
   NavigationState ins_, ins_moved_;
-  Preintegration felt_;
+  Preintegration preintegrated_;
   Parameters parameters_;
   double offset_decay_, angle_decay_;
 };

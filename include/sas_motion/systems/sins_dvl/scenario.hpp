@@ -28,7 +28,7 @@ struct Scenario {
 /// What a run is simulated from and scored against: motion, and what the 27-state fusion is told of the same sensors.
 ins::Scenario withoutGps(const Scenario& scenario);
 
-/// Draws a run: the inertial unit by (0.4) with constants and white noise, the DVL by (B.5). The same scenario and seed
+/// Draws a run: the IMU by (0.4) with constants and white noise, the DVL by (B.5). The same scenario and seed
 /// give the same numbers.
 ins::Recording simulate(const Scenario& scenario, const ins::Trajectory& trajectory, std::uint64_t seed);
 

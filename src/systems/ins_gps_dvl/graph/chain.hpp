@@ -10,7 +10,7 @@
 namespace sas_motion::ins {
 
 /// Cuts a run into nodes as it comes: one wherever a sensor that aids speaks, and wherever the last is long ago.
-/// robust_ckf27 runs beside and says where iterations start.
+/// robust_kf27 runs beside and says where iterations start.
 class InsChain {
  public:
   /// A node with what was read at it and on the way into it. A node that stands already comes again where readings of
@@ -31,17 +31,17 @@ class InsChain {
   }
   /// Appends what is refused to `audits`, and nodes that are complete to `stops`.
   ImuVerdict add(const ImuReading& reading, std::vector<Audit>& audits, std::vector<Stop>& stops);
-  /// Ends at the last stamp of the inertial unit.
+  /// Ends at the last stamp of the IMU.
   void close(std::vector<Stop>& stops);
 
-  const RobustCkf27& filter() const { return filter_; }
+  const RobustKf27& filter() const { return filter_; }
 
  private:
   void advance(const ImuReading& reading, Stamp stamp);
   void cut(std::vector<Stop>& stops);
   Stop stopHere() const;
 
-  RobustCkf27 filter_;
+  RobustKf27 filter_;
   Mechanisation ins_;
   std::vector<Aiding> waiting_;
   double gap_ = 0;  // of the reading that is integrated, where it bridges one [s]

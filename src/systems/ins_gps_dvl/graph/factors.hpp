@@ -15,7 +15,7 @@ namespace sas_motion::ins {
 using ModelPtr = std::shared_ptr<const ErrorModel>;
 using IntervalPtr = std::shared_ptr<const InertialInterval>;
 
-/// Two nodes and what the inertial unit read between them: the errors that the way integrated from the first has at the
+/// Two nodes and what the IMU read between them: the errors that the way integrated from the first has at the
 /// second. It is integrated anew at each linearisation, over the Earth as it is; Jacobians and noise are those of
 /// ErrorModel::transition. (C.4)
 class InertialFactor final : public gtsam::NoiseModelFactor3<Node, Node, Constants> {

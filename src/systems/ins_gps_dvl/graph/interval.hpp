@@ -9,16 +9,16 @@
 
 namespace sas_motion::ins {
 
-/// The readings of the inertial unit between two nodes, from which the way is integrated anew wherever it begins.
+/// The readings of the IMU between two nodes, from which the way is integrated anew wherever it begins.
 struct InertialInterval {
   struct Piece {
     ImuReading reading;
-    Stamp end;  ///< where a node stands between two stamps of the unit, before the reading's own
+    Stamp end;  ///< where a node stands between two stamps of the IMU, before the reading's own
   };
 
   Mechanisation begin;  ///< with the memory of the reading before
   std::vector<Piece> pieces = {};
-  Errors gap_variance = Errors::Zero();  ///< what a gap of the unit adds to the noise, in the model's units squared
+  Errors gap_variance = Errors::Zero();  ///< what a gap of the IMU adds to the noise, in the model's units squared
   double duration = 0;                   ///< [s]
 };
 

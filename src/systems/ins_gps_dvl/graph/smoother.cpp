@@ -10,10 +10,11 @@ namespace {
 constexpr int kLiveIterations = 5;
 constexpr double kLiveTolerance = 1e-5;  // [-]
 
-/// A filter that goes on from a solution: at the stamp of that its estimate had an error, which grows by the velocity's.
+/// A filter that goes on from a solution: at the stamp of that its estimate had an error, which grows by the
+/// velocity's.
 class Present final : public Estimator {
  public:
-  Present(const RobustCkf27& filter, const Vector<kNodeStates>& error, Stamp stamp)
+  Present(const RobustKf27& filter, const Vector<kNodeStates>& error, Stamp stamp)
       : filter_(filter), error_(error), stamp_(stamp) {}
 
   void start(const NavigationState&, Stamp) override {}
@@ -30,7 +31,7 @@ class Present final : public Estimator {
   std::unique_ptr<Estimator> clone() const override { return std::make_unique<Present>(*this); }
 
  private:
-  RobustCkf27 filter_;
+  RobustKf27 filter_;
   Vector<kNodeStates> error_;
   Stamp stamp_;
 };
@@ -119,7 +120,7 @@ void InsSmoother::beginAnew(Output& output) {
     }
   chain_->close(stops_);
   stops_.clear();
-  const RobustCkf27& filter = chain_->filter();
+  const RobustKf27& filter = chain_->filter();
   window_.emplace(filter.model(), options_.loss, filter.fused(), filter.belief(), filter.stamp());
   last_start_ = window_->node(0);
 }
@@ -129,7 +130,7 @@ void InsSmoother::settle(std::size_t count, Output& output) {
   window_->forget(count);
 }
 
-/// A node's readings, and the way to the next one at the stamps of the inertial unit.
+/// A node's readings, and the way to the next one at the stamps of the IMU.
 void InsSmoother::putOut(std::size_t node, Output& output) const {
   const auto audits = window_->audits(node);
   output.audits.insert(output.audits.end(), audits.begin(), audits.end());

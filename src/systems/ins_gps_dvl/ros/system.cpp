@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/ins_gps_dvl/ros/system.hpp"
 
+#include "sas_motion/systems/ins_gps_dvl/solutions.hpp"
 #include "systems/ins_gps_dvl/graph/smoother.hpp"
 #include "systems/ins_gps_dvl/ros/run.hpp"
 
@@ -15,10 +16,11 @@ class InsGpsDvlSystem final : public NavigationSystem {
  public:
   explicit InsGpsDvlSystem(YamlSection& yaml) : NavigationSystem(ins::makeAnyEstimator, "") {
     estimators = ins::anyEstimatorNames();
-    preferred = {"robust_ckf27"};
+    preferred = {"robust_kf27"};
     ins::readSettings(yaml, estimation_);
     readRest(yaml);
   }
+  std::string currentName(const std::string& estimator) const override { return ins::currentName(estimator); }
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ class SinsDvlSystem final : public NavigationSystem {
     };
     readRest(yaml);
   }
+  std::string currentName(const std::string& estimator) const override { return sins::currentName(estimator); }
 };
 
 }  // namespace

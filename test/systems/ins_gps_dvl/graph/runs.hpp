@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sas_motion/systems/ins_gps_dvl/simulator.hpp"
+#include "systems/ins_gps_dvl/campaign.hpp"
 #include "systems/ins_gps_dvl/graph/smoother.hpp"
 
 namespace sas_motion::ins::testing {
@@ -18,14 +19,7 @@ inline Recording recordingOf(const Scenario& scenario, std::uint64_t seed) {
   return simulate(scenario, Trajectory(scenario.track, scenario.duration), seed);
 }
 
-inline Config configOf(const Scenario& scenario) {
-  Config config;
-  config.parameters = scenario.parameters;
-  config.imu.period = 1 / scenario.imu_rate;
-  return config;
-}
-
-/// Feeds the readings from one on that come no later than the end of the inertial unit's, without the finish.
+/// Feeds the readings from one on that come no later than the end of the IMU's, without the finish.
 inline void feed(Estimator& estimator, const Recording& recording, Output& output) {
   auto next = recording.aiding.begin();
   for (const auto& reading : recording.imu) {

@@ -14,7 +14,6 @@
 namespace sas_motion::ins {
 namespace {
 
-using testing::configOf;
 using testing::outputOf;
 using testing::positionError;
 using testing::recordingOf;
@@ -33,7 +32,7 @@ InsSmoother::Options linearLoss() {
 }
 
 TEST(InsSmoother, NamesTheGraphsEstimatorsAndThoseOfTheCore) {
-  for (const char* name : {"batch", "fixed_lag", "ckf27", "smooth_robust_ckf27"})
+  for (const char* name : {"batch", "fixed_lag", "kf27", "steady_robust_kf27"})
     EXPECT_TRUE(makeAnyEstimator(name, {})) << name;
   EXPECT_FALSE(makeAnyEstimator("no_such_estimator", {}));
 }
@@ -43,7 +42,7 @@ TEST(InsSmoother, AtTheEndBatchIsTheKalmanFilter) {
   const Scenario scenario = surveyOf(100);
   const Recording recording = recordingOf(scenario, 3);
   InsSmoother batch(configOf(scenario), linearLoss());
-  const Output smoothed = outputOf(batch, recording), filtered = outputOf("ckf27", scenario, recording);
+  const Output smoothed = outputOf(batch, recording), filtered = outputOf("kf27", scenario, recording);
   const NavigationSolution &a = smoothed.solutions.back(), &b = filtered.solutions.back();
   ASSERT_EQ(a.stamp, b.stamp);
   const Vector<9> sigma = b.covariance->diagonal().cwiseSqrt();
@@ -91,11 +90,11 @@ TEST(InsSmoother, FixedLagLiesBetweenFilterAndBatchAndPutsOutAsItGoes) {
     EXPECT_LE(smoother.window()->size(), 5 * 26U) << "what is settled is forgotten";
     smoother.finish(live);
     EXPECT_EQ(live.solutions.size() + 1, recording.imu.size());
-    filter += tiltError(outputOf("robust_ckf27", scenario, recording), scenario, 30);
+    filter += tiltError(outputOf("robust_kf27", scenario, recording), scenario, 30);
     lag += tiltError(live, scenario, 30);
     batch += tiltError(outputOf("batch", scenario, recording), scenario, 30);
   }
-  std::cout << "tilt: robust_ckf27 " << filter / 2 << ", fixed_lag " << lag / 2 << ", batch " << batch / 2 << " rad\n";
+  std::cout << "tilt: robust_kf27 " << filter / 2 << ", fixed_lag " << lag / 2 << ", batch " << batch / 2 << " rad\n";
   EXPECT_LT(lag, filter);
   EXPECT_LT(batch, lag);
 }
@@ -123,7 +122,7 @@ TEST(InsSmoother, BatchBeatsTheFilterAlsoWithOutliers) {
       Scenario scenario = surveyOf(240);
       if (bad) addOutliers(scenario);
       const Recording recording = recordingOf(scenario, seed);
-      filter += std::pow(positionError(outputOf("robust_ckf27", scenario, recording), scenario, 60), 2);
+      filter += std::pow(positionError(outputOf("robust_kf27", scenario, recording), scenario, 60), 2);
       batch += std::pow(positionError(outputOf("batch", scenario, recording), scenario, 60), 2);
     }
     EXPECT_LT(std::sqrt(batch / filter), 0.9) << (bad ? "outliers" : "clean");
@@ -179,7 +178,7 @@ TEST(InsSmoother, EstimatesAScaleAndMisalignmentThatTheFilterDoesNotKnow) {
     const Recording recording = recordingOf(scenario, seed);
     InsSmoother smoother(configOf(scenario), {});
     batch += std::pow(positionError(outputOf(smoother, recording), scenario, 60), 2);
-    filter += std::pow(positionError(outputOf("robust_ckf27", scenario, recording), scenario, 60), 2);
+    filter += std::pow(positionError(outputOf("robust_kf27", scenario, recording), scenario, 60), 2);
     EXPECT_NE(smoother.window()->dvlScale(), 0);
     EXPECT_NE(smoother.window()->dvlMisalignment().norm(), 0);
   }
@@ -216,7 +215,7 @@ TEST(InsSmoother, FindsADvlThatIsNotWhereItIsToldToBe) {
 TEST(InsSmoother, StandsWhatSensorsReallySend) {
   const Scenario scenario = surveyOf(40);
   Recording recording = recordingOf(scenario, 6);
-  // GIVEN a gap of the inertial unit, nonsense, readings that are late, and some between its stamps a microsecond apart
+  // GIVEN a gap of the IMU, nonsense, readings that are late, and some between its stamps a microsecond apart
   recording.imu.erase(recording.imu.begin() + 2000, recording.imu.begin() + 2300);
   recording.imu[1000].force_body.x() = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < recording.aiding.size(); ++k)
@@ -255,7 +254,7 @@ TEST(InsSmoother, SaysWhyThereIsNoAnswer) {
 TEST(InsSmoother, CampaignsScoreItBesideTheFilters) {
   const auto suite = sas_motion::testing::suiteOf(
       "{runs: 1, campaigns: [{name: ins, system: ins_gps_dvl, scenario: " SAS_MOTION_SOURCE_DIR
-      "/config/scenarios/ins/survey.yaml, duration: 60, skip: 20, estimators: [robust_ckf27, batch, fixed_lag], laws: "
+      "/config/scenarios/ins/survey.yaml, duration: 60, skip: 20, estimators: [robust_kf27, batch, fixed_lag], laws: "
       "[{name: bad, noise: {law: contaminated, "
       "epsilon: 0.1, K: 30}}]}]}",
       sas_motion::testing::readers(makeAnyEstimator));
@@ -288,7 +287,7 @@ TEST(InsSmoother, GoesOnAfterAPause) {
     EXPECT_EQ(output.solutions.size() + 1, recording.imu.size()) << name;
     EXPECT_EQ(output.audits.size(), recording.aiding.size()) << name;
     EXPECT_LT(positionError(output, scenario, 20),
-              1.2 * positionError(outputOf("robust_ckf27", scenario, recording), scenario, 20))
+              1.2 * positionError(outputOf("robust_kf27", scenario, recording), scenario, 20))
         << name;
   }
 }

@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "bag/bag_output.hpp"
-#include "bag/reprocess.hpp"
 #include "bag/odometry_in.hpp"
+#include "bag/reprocess.hpp"
 #include "systems/ins_gps_dvl/ros/recorder.hpp"
-#include "systems/registry.hpp"
 #include "systems/ins_gps_dvl/stream.hpp"
+#include "systems/registry.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -26,10 +26,10 @@ TEST(InsBag, AReprocessedBagSaysWhatTheSameReadingsSayInMemory) {
   BagOutput bag(file);
   InsRecorder(scenario, 7, bag).record([](double) {});
   bag.commit();
-  reprocess(file, folder + "/out", {"ckf27", "robust_ckf27"}, *openSystem(config), [](double) {});
+  reprocess(file, folder + "/out", {"kf27", "robust_kf27"}, *openSystem(config), [](double) {});
 
   const LocalFrame frame({54.35, 10.15, 0});
-  for (const std::string name : {"ckf27", "robust_ckf27"}) {
+  for (const std::string name : {"kf27", "robust_kf27"}) {
     const auto messages = odometryIn(folder + "/out/ins.bag", name + "/odometry");
     const auto solutions =
         ins::testing::settled(ins::testing::streamOf(scenario, 7), ins::testing::optionsOf(scenario), name).solutions;

@@ -16,18 +16,17 @@
 
 namespace sas_motion {
 
-/// Of every particle filter.
+/// Options of every particle filter.
 struct ParticleOptions {
   int particles = 1200;
   double resample_below = 0.5;  ///< effective size over the number of particles
   int threads = 1;              ///< the results are the same for any number
   std::uint64_t seed = 1;
-  std::optional<Loss>
-      loss;  ///< against outliers: a row's noise grows by the inverse of its weight, for all particles alike
+  std::optional<Loss> loss;  ///< against outliers: multiplies a row's noise by 1 / weight, for all particles alike
 };
 
-/// The report of one update of a particle filter. Invalid where z is no measurement, or where no particle explains it:
-/// then all are kept, with equal weights.
+/// The result of one update of a particle filter. The verdict is Invalid where z cannot be used, or where its
+/// likelihood is 0 for all particles; these then get equal weights.
 template <int M>
 struct ParticleUpdate {
   Vector<M> innovation = Vector<M>::Zero();  ///< z less the mean of h
@@ -39,12 +38,12 @@ struct ParticleUpdate {
   Verdict verdict = Verdict::Invalid;
 };
 
-/// What particle filters share: the particles in two buffers, their weights, threads and random numbers. A copy has the
-/// same threads, so that not both may be at work at a time.
+/// The particles of a filter in two buffers, with their weights, threads and random numbers. Copies share the threads,
+/// so only one of them may run at a time.
 template <class Particle>
-class Crowd {
+class ParticleSet {
  public:
-  explicit Crowd(const ParticleOptions& options)
+  explicit ParticleSet(const ParticleOptions& options)
       : options_(options),
         weights_(static_cast<std::size_t>(std::max(0, options.particles))),
         particles_(static_cast<std::size_t>(options.particles)),
@@ -60,14 +59,14 @@ class Crowd {
   const ParticleWeights& weights() const { return weights_; }
   const ParticleOptions& options() const { return options_; }
 
-  /// Does `work(first, count)` for blocks of `together` particles; the last may have fewer.
+  /// Calls `work(first, count)` for blocks of `together` particles; the last may have fewer.
   template <class Work>
   void forEachBlock(std::size_t together, const Work& work) {
     team_->forEach((size() + together - 1) / together,
                    [&](std::size_t task) { work(task * together, std::min(together, size() - task * together)); });
   }
 
-  /// Does `work(i)` for every particle.
+  /// Calls `work(i)` for every particle.
   template <class Work>
   void forEach(const Work& work) {
     forEachBlock(24, [&](std::size_t first, std::size_t count) {
@@ -75,7 +74,7 @@ class Crowd {
     });
   }
 
-  /// The next numbers are of another step.
+  /// Starts the random numbers of another step.
   void nextStep() { ++step_; }
   CounterRandom random(std::size_t i) const { return {options_.seed, {0, step_, static_cast<std::uint32_t>(i)}}; }
   template <int N>
@@ -86,8 +85,8 @@ class Crowd {
     return draws;
   }
 
-  /// Innovation, its covariance and the rows' weights, from `h` of each particle's state and `own`, the mean covariance
-  /// that a particle has of h.
+  /// Computes innovation, covariance and the rows' weights from `h` of each particle's state. `own` is the mean
+  /// covariance of h within one particle.
   template <int M, class State, class Function, class Difference>
   ParticleUpdate<M> examine(const Vector<M>& z, const Function& h, const Matrix<M>& R, const Matrix<M>& own,
                             const Difference& difference, const State& state) {
@@ -116,14 +115,14 @@ class Crowd {
     return update;
   }
 
-  /// Root of the noise that every particle is told: R with its rows' variances over their weights.
+  /// The root of R with the rows' variances divided by their weights.
   template <int M>
   static Matrix<M> noiseRoot(const Matrix<M>& R, const Vector<M>& weights) {
     return weights.cwiseMax(kTiny).cwiseSqrt().cwiseInverse().asDiagonal() * choleskyLower<M>(R).value();
   }
 
-  /// Normalises, and resamples where too few particles count; `renew(particle, copied, i)` makes the i-th of its
-  /// parent, whose only one it is or one of several.
+  /// Normalises the weights, and resamples where the effective number is too small. `renew(particle, copied, i)`
+  /// completes the i-th new particle; `copied` says whether its parent has several.
   template <int M, class Renew>
   void weigh(ParticleUpdate<M>& update, const Renew& renew) {
     if (!weights_.normalise()) {
@@ -159,12 +158,12 @@ class Crowd {
   std::uint32_t step_ = 0;
 };
 
-/// Calls `add(i, weight)` for every particle that has weight and is finite. Their sum is what is returned.
+/// Calls `add(i, weight)` for every particle that has weight and is finite. Returns the sum of the weights.
 template <class Particles, class State, class Add>
-double overFinite(const Particles& crowd, const State& state, const Add& add) {
+double overFinite(const Particles& particles, const State& state, const Add& add) {
   double sum = 0;
-  for (std::size_t i = 0; i < crowd.size(); ++i)
-    if (const double weight = crowd.weights().values()[i]; weight > 0 && state(crowd[i]).allFinite()) {
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (const double weight = particles.weights().values()[i]; weight > 0 && state(particles[i]).allFinite()) {
       add(i, weight);
       sum += weight;
     }
@@ -173,18 +172,19 @@ double overFinite(const Particles& crowd, const State& state, const Add& add) {
 
 /// The mean of weighted states, without those that are not finite.
 template <int N, class Particles, class State>
-Vector<N> meanOf(const Particles& crowd, const State& state) {
+Vector<N> meanOf(const Particles& particles, const State& state) {
   Vector<N> mean = Vector<N>::Zero();
-  const double sum = overFinite(crowd, state, [&](std::size_t i, double weight) { mean += weight * state(crowd[i]); });
+  const double sum =
+      overFinite(particles, state, [&](std::size_t i, double weight) { mean += weight * state(particles[i]); });
   return mean / sum;
 }
 
-/// Likewise with their covariance.
+/// The mean and covariance of weighted states, without those that are not finite.
 template <int N, class Particles, class State>
-Gaussian<N> momentsOf(const Particles& crowd, const State& state) {
-  Gaussian<N> moments{meanOf<N>(crowd, state), Matrix<N>::Zero()};
-  const double sum = overFinite(crowd, state, [&](std::size_t i, double weight) {
-    const Vector<N> offset = state(crowd[i]) - moments.mean;
+Gaussian<N> momentsOf(const Particles& particles, const State& state) {
+  Gaussian<N> moments{meanOf<N>(particles, state), Matrix<N>::Zero()};
+  const double sum = overFinite(particles, state, [&](std::size_t i, double weight) {
+    const Vector<N> offset = state(particles[i]) - moments.mean;
     moments.covariance.noalias() += weight * offset * offset.transpose();
   });
   moments.covariance /= sum;

@@ -8,24 +8,24 @@
 
 namespace sas_motion {
 
-/// For imaging: what an INS measures, integrated, which follows a fused solution's velocity and position slowly, so
-/// that no reading makes it jump or bend within an aperture.
-class SmoothTrack {
+/// A track for imaging: the integrated readings of an INS, which slowly follow a fused solution's velocity and
+/// position. No reading of another sensor makes the track jump or bend within an aperture.
+class SteadyTrack {
  public:
   struct Options {
-    double velocity_time = 30, position_time = 3000;  ///< in which it follows [s]
+    double velocity_time = 30, position_time = 3000;  ///< time constants [s]
   };
 
-  SmoothTrack(const NavigationState& start, const Options& options) : options_(options), state_(start), fused_(start) {}
+  SteadyTrack(const NavigationState& start, const Options& options) : options_(options), state_(start), fused_(start) {}
 
-  /// The fused solution has moved, without a reading, for `dt` seconds.
+  /// Follows the fused solution over `dt` seconds without a reading.
   void move(const NavigationState& fused, double dt) {
     displace(state_,
              displacement(fused_, fused) + dt * lag_ + dt / options_.position_time * displacement(state_, fused));
     lag_ *= std::exp(-dt / options_.velocity_time);
     fused_ = fused;
   }
-  /// A reading has made the fused solution jump.
+  /// Takes up a jump of the fused solution at a reading.
   void jump(const NavigationState& fused) {
     lag_ += fused_.velocity_nav - fused.velocity_nav;
     fused_ = fused;
@@ -43,7 +43,7 @@ class SmoothTrack {
  private:
   Options options_;
   NavigationState state_, fused_;
-  Vector<3> lag_ = Vector<3>::Zero();  // velocity of the smooth solution less the fused one
+  Vector<3> lag_ = Vector<3>::Zero();  // velocity of the steady solution less the fused one
 };
 
 }  // namespace sas_motion

@@ -12,15 +12,15 @@
 
 namespace sas_motion {
 
-/// What the bank makes of one measurement: every hypothesis hears each row, is weighed by how well it foresaw them, and
-/// what all of them think the noise was is learned.
+/// The update of a bank by one measurement. Every hypothesis fuses the rows and is weighted by their predicted density.
+/// The rates of the noise scales are learned from the average over the hypotheses.
 template <int N, int M>
-class BankJudgement {
+class BankUpdate {
  public:
   using Belief = BankBelief<N>;
   using Options = typename BankKalmanFilter<N>::Options;
 
-  BankJudgement(const Options& options, Belief& belief, const LinearMeasurement<N, M>& z)
+  BankUpdate(const Options& options, Belief& belief, const LinearMeasurement<N, M>& z)
       : options_(options), belief_(belief), z_(z) {
     for (int row = 0; row < M; ++row) {
       place_[row] = channel(row);
@@ -30,7 +30,7 @@ class BankJudgement {
     }
   }
 
-  /// Fuses the rows; how far each is believed, 0 to 1.
+  /// Fuses the rows and returns their weights, 0 to 1.
   Vector<M> weights() {
     for (std::size_t i = 0; i < kHypotheses; ++i) hear(i);
     weigh();
@@ -41,9 +41,9 @@ class BankJudgement {
 
  private:
   static constexpr std::size_t kHypotheses = Belief::kHypotheses;
-  static constexpr double kPriorReadings = 50;   // that the options' probabilities of the scales are worth
-  static constexpr double kFade = 0.5;           // an epoch: stickiness beyond the longest burst
-  static constexpr double kSmallestShare = 0.1;  // of a scale's own probability: nothing is ever ruled out
+  static constexpr double kPriorReadings = 50;   // that the options' probabilities of the scales count as
+  static constexpr double kFade = 0.5;           // factor of the stickiness for each epoch beyond the longest burst
+  static constexpr double kSmallestShare = 0.1;  // of a scale's probability in the options
   static constexpr int kRowsPerSource = 8;
 
   std::size_t channel(int row) {
@@ -54,10 +54,10 @@ class BankJudgement {
       if (learned.key < 0) learned = {key, z_.time, kPriorReadings, options_.probabilities};
       return c;
     }
-    return belief_.channels.size() - 1;  // more channels than places: the last ones share one
+    return belief_.channels.size() - 1;  // the channels beyond the last place share it
   }
 
-  /// Doubt in the sister rows of each; in itself where it has none.
+  /// The largest probability of an outlier in the other rows; that of the row itself where it is the only one.
   std::array<double, M> sharedDoubt(const BankHypothesis<N>& h) const {
     std::array<double, M> shared;
     for (int row = 0; row < M; ++row) {
@@ -84,7 +84,7 @@ class BankJudgement {
     }
   }
 
-  /// Makes the hypothesis so unsure that the row is within its reach.
+  /// Widens the hypothesis until the innovation of the row is one standard deviation.
   void reach(BankHypothesis<N>& h, int row) const {
     const Vector<N> H = z_.H.row(row).transpose();
     const double off = z_.innovation(row) - H.dot(h.deviation);
@@ -92,7 +92,7 @@ class BankJudgement {
     h.channels[place_[row]].run = h.channels[place_[row]].doubt = 0;
   }
 
-  /// The row's mixture collapsed in closed form [Masreliez1975]; the shares of its scales.
+  /// Collapses the mixture of the row in closed form [Masreliez1975]. Returns the shares of its scales.
   BankReading::Scales fuse(BankHypothesis<N>& h, int row, double shared, double& log_weight) const {
     auto& c = h.channels[place_[row]];
     const Vector<N> H = z_.H.row(row).transpose(), PH = h.covariance * H;

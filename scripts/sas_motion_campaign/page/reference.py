@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an estimator is measured by: the best that could be done."""
+"""What estimators are compared with: the best that could be done."""
 import math
 import statistics
 
@@ -8,15 +8,15 @@ from sas_motion_report.inputs import dig, finite
 
 from ..ratios import informed
 
-YARDSTICKS = ('bayes_reference', 'bound', 'oracle_kf', 'oracle_ckf', 'best')
-NAMES = {'bayes_reference': 'bayes_reference (told the law)', 'bound': 'the Cramér-Rao bound',
-         'oracle_kf': 'oracle_kf (told the outliers)', 'oracle_ckf': 'oracle_ckf (told the outliers)',
+REFERENCES = ('bayes_reference', 'bound', 'oracle_kf', 'oracle_ckf', 'best')
+NAMES = {'bayes_reference': 'bayes_reference (knows the law)', 'bound': 'the Cramér-Rao bound',
+         'oracle_kf': 'oracle_kf (knows the outliers)', 'oracle_ckf': 'oracle_ckf (knows the outliers)',
          'best': 'the best'}
 
 
-def yardstick(campaign):
-    """Returns the first of YARDSTICKS that the campaign has."""
-    return next(key for key in YARDSTICKS if key == 'best' or any(ratio(law, name, key) for law, name in pairs(campaign)))
+def reference(campaign):
+    """Returns the first of REFERENCES that the campaign has."""
+    return next(key for key in REFERENCES if key == 'best' or any(ratio(law, name, key) for law, name in pairs(campaign)))
 
 
 def pairs(campaign):
@@ -25,7 +25,7 @@ def pairs(campaign):
 
 
 def ratio(law, name, key):
-    """Returns an estimator's RMS error over a yardstick's, or None."""
+    """Returns an estimator's RMS error over a reference's, or None."""
     value = dig(law, 'estimators', name, 'ratios', key, 'value')
     return value if finite(value) else None
 
@@ -45,8 +45,8 @@ def contenders(campaign):
 
 
 def nearest(campaign):
-    """Returns [(estimator, laws in which it is the nearest, {law: ratio to the yardstick})], the most often nearest first."""
-    key, names = yardstick(campaign), contenders(campaign)
+    """Returns [(estimator, laws in which it is the nearest, {law: ratio to the reference})], the most often nearest first."""
+    key, names = reference(campaign), contenders(campaign)
     first = [next(name for name in ranked(campaign, law) if name in names) for law in campaign['laws'].values()]
     found = []
     for name in names:
