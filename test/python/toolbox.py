@@ -29,7 +29,7 @@ TOOLS = tools()
 
 def run(tool, *arguments, **options):
     """A tool in a process of its own."""
-    return subprocess.run([TOOLS / tool, *map(str, arguments)], text=True, capture_output=True, env=ENVIRONMENT, check=False, timeout=120, **options)
+    return subprocess.run([TOOLS / tool, *map(str, arguments)], text=True, capture_output=True, env=ENVIRONMENT, check=False, timeout=600, **options)
 
 
 def succeed(tool, *arguments):

@@ -5,8 +5,10 @@ import pathlib
 import sys
 
 import pytest
+import rospy
 
-sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1] / "python")]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "test" / "python"), str(ROOT / "scripts")]
 
 import toolbox  # noqa: E402
 from live import Sensors  # noqa: E402
@@ -16,6 +18,7 @@ from ros_session import Session  # noqa: E402
 @pytest.fixture(scope="session")
 def session(tmp_path_factory):
     opened = Session(tmp_path_factory.mktemp("ros"))
+    rospy.init_node("tests", disable_signals=True, disable_rostime=True)
     yield opened
     opened.close()
 

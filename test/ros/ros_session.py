@@ -9,11 +9,14 @@ import socket
 import subprocess
 import time
 
+import play_session
 import rosgraph
+import rospy
+from std_srvs.srv import SetBool
 
 
-def wait_until(ready, what, timeout=30):
-    """Waits for ready() to be true and returns it."""
+def wait_until(ready, what, timeout=120):
+    """Waits for ready() to be true and returns it; long, since the machine may be busy."""
     end = time.monotonic() + timeout
     while True:
         found = ready()
@@ -74,6 +77,17 @@ class Session:
         """Names of the nodes that subscribe to a topic."""
         return {node for name, nodes in self.master.getSystemState()[1] if name == topic for node in nodes}
 
+    def play(self, player, listener, topics):
+        """Lets a paused rosbag play begin, once a node, and who else has asked for its topics, is connected to it."""
+        def connected():
+            with contextlib.suppress(OSError, rosgraph.MasterException):
+                links = play_session.links_from(self.master, player)
+                return {(player, f"/{topic}", listener) for topic in topics} <= links and not play_session.unconnected(self.master, links)
+            return False
+        wait_until(connected, f"{listener} listens to {player}")
+        rospy.wait_for_service(f"{player}/pause_playback", 120)
+        rospy.ServiceProxy(f"{player}/pause_playback", SetBool)(False)
+
     @contextlib.contextmanager
     def running_process(self, *command):
         """A process for as long as the block lasts."""
@@ -88,7 +102,7 @@ class Session:
             end(process)
 
 
-def run_to_end(process, timeout):
+def run_to_end(process, timeout=600):
     """Waits for a process that ends by itself; its exit status."""
     try:
         return process.wait(timeout)

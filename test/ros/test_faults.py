@@ -143,7 +143,7 @@ def test_a_wrong_parameter_stops_it_with_one_sentence(kind, session, tmp_path):
         parameters = {"config": str(tmp_path / "a.yaml")}
     rospy.set_param("/wrong", parameters)
     process = session.start("rosrun", "nodelet", "nodelet", "standalone", "sas_motion/FilterNodelet", "__name:=wrong")
-    assert run_to_end(process, 30) not in (0, None)
+    assert run_to_end(process) not in (0, None)
     rospy.delete_param("/wrong")
     said = [line for line in process.log.read_text().splitlines() if "FATAL" in line]
     assert len(said) == 1 and culprit in said[0] and "/wrong" in said[0], process.log.read_text()

@@ -7,6 +7,7 @@ import pytest
 import rospy
 import toolbox
 from diagnostic_msgs.msg import DiagnosticArray
+from live import Listener, listening, statuses
 from nav_msgs.msg import Odometry
 from ros_session import wait_until
 from sas_motion.msg import FilterUpdate
@@ -25,23 +26,20 @@ class Heard:
     """What the nodelet has said so far."""
 
     def __init__(self):
-        self.odometry, self.settled, self.updates, self.status, self.frames = [], [], [], [], set()
-        self.subscribers = [rospy.Subscriber(f"{NAME}/{leaf}", kind, into.append, queue_size=10000) for leaf, kind, into in
-                            (("odometry", Odometry, self.odometry), ("settled", Odometry, self.settled), ("update", FilterUpdate, self.updates))]
-        self.subscribers += [rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics), rospy.Subscriber("/tf", TFMessage, self.on_tf)]
+        self.odometry, self.settled = Listener(f"{NAME}/odometry", Odometry), Listener(f"{NAME}/settled", Odometry)
+        self.updates = Listener(f"{NAME}/update", FilterUpdate)
+        self.diagnostics, self.transforms = Listener("/diagnostics", DiagnosticArray), Listener("/tf", TFMessage)
+        self.listeners = [self.odometry, self.settled, self.updates, self.diagnostics, self.transforms]
 
-    def on_diagnostics(self, array):
-        self.status += [status for status in array.status if status.name == "ins: estimators"]
+    @property
+    def status(self):
+        return statuses(self.diagnostics, "ins: estimators")
 
-    def on_tf(self, message):
-        self.frames.update((t.header.frame_id, t.child_frame_id) for t in message.transforms)
+    def frames(self):
+        return {(t.header.frame_id, t.child_frame_id) for message in self.transforms for t in message.transforms}
 
     def values(self):
         return {pair.key: pair.value for pair in self.status[-1].values}
-
-    def close(self):
-        for subscriber in self.subscribers:
-            subscriber.unregister()
 
 
 def call(service, kind, *arguments):
@@ -64,23 +62,26 @@ def offline(bag, config, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def live(session, sensors, bag, config):
+def live(session, bag, config):
     """What was heard of a played bag, answers for pings, diagnostics before the data and at their end, and answers of the other services."""
     heard, answers = Heard(), []
     last = max(m.header.stamp for m in toolbox.topics(bag)["imu/data"])
-    command = ("roslaunch", "sas_motion", "ins_gps_dvl.launch", f"bag:={bag}", f"rate:={RATE}", f"config:={config}", f"estimators:=[{NAME}]", "start_delay:=8")
-    with session.running_process(*command) as launch:
-        wait_until(lambda: heard.status or launch.poll() is not None, "diagnostics", 60)
+    command = ("roslaunch", "sas_motion", "ins_gps_dvl.launch", f"bag:={bag}", f"rate:={RATE}", f"config:={config}", f"estimators:=[{NAME}]", "start_delay:=0",
+               "play_options:=--pause")
+    with listening(heard.listeners), session.running_process(*command) as launch:
+        wait_until(lambda: heard.status or launch.poll() is not None, "diagnostics")
         assert launch.poll() is None, launch.log.read_text()
         waiting = heard.status[0].message
+        wait_until(lambda: all(listener.connected() for listener in heard.listeners), "the tests listen")
+        session.play("/player", "/ins", ("gnss/fix", "imu/data", "dvl/twist", "depth/pose", "tf_static"))
         for age in (1, 1, 1, 2, 3):
             count = len(heard.odometry)
-            wait_until(lambda count=count: len(heard.odometry) > count + 100, "answers", 60)
+            wait_until(lambda count=count: len(heard.odometry) > count + 100, "answers")
             newest = heard.odometry[-1].header.stamp
             for shift in (0, 3_700_000, 10_000_000):
                 stamp = rospy.Time(0, newest.to_nsec() - age * 1_000_000_000 + shift)
                 answers.append((stamp, call("get_state_at", GetStateAt, stamp, "")))
-        wait_until(lambda: heard.settled and heard.settled[-1].header.stamp == last, "the end", 60)
+        wait_until(lambda: heard.settled and heard.settled[-1].header.stamp == last, "the end")
         count = len(heard.status)
         wait_until(lambda: len(heard.status) > count, "diagnostics")
         values = heard.values()
@@ -90,7 +91,6 @@ def live(session, sensors, bag, config):
         count = len(heard.status)
         wait_until(lambda: len(heard.status) > count + 1, "diagnostics")
         after = heard.status[-1].message
-    heard.close()
     return heard, answers, waiting, values, others, after
 
 
@@ -113,7 +113,7 @@ def test_the_present_is_near_what_settles(live):
     off = [math.dist((m.pose.pose.position.x, m.pose.pose.position.y), (settled[m.header.stamp].x, settled[m.header.stamp].y))
            for m in heard.odometry if m.header.stamp in settled]
     assert len(off) > 1000 and sorted(off)[len(off) // 2] < 0.05 and max(off) < 5
-    assert heard.frames == {("map", "odom"), ("odom", "base_link")}
+    assert heard.frames() == {("map", "odom"), ("odom", "base_link")}
 
 
 def test_it_answers_at_ping_times(live, offline):

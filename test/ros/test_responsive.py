@@ -35,7 +35,7 @@ def test_live_answers_go_on_while_the_batch_is_solved_and_published(session, sen
         answer = []
         solving = threading.Thread(target=lambda: answer.append(smoother.call("solve_batch", Trigger)))
         solving.start()
-        slowest, count = 0, 0
+        begin, slowest, count = time.monotonic(), 0, 0
         for topic, message in found[len(early):]:
             if not solving.is_alive():
                 break
@@ -44,24 +44,27 @@ def test_live_answers_go_on_while_the_batch_is_solved_and_published(session, sen
             start = time.monotonic()
             wait_until(lambda m=message: smoother.odometry["kf"][-1].header.stamp >= m.header.stamp, "an answer")
             slowest, count = max(slowest, time.monotonic() - start), count + 1
+        took = time.monotonic() - begin
         solving.join()
-    assert count > 30 and slowest < 1
+    assert count > 10 and slowest < max(1, took / 4)  # behind the batch, one of them would wait for most of that time
     states = int(answer[0].message.split()[0])
-    assert answer[0].success and states - len({message.header.stamp.to_nsec() for _, message in early}) in (0, 1)  # the first of the others may just be in time
+    # and it is of all data until then, and perhaps of the first of the others
+    assert answer[0].success and 0 <= states - len({message.header.stamp.to_nsec() for _, message in early}) <= count
 
 
-def test_requests_are_answered_while_what_is_settled_is_published(session, sensors, long_survey, config):
-    found = measurements(long_survey, 60)
-    expected = len({message.header.stamp.to_nsec() for _, message in found})
-    with nodelet(session, sensors, "FilterNodelet", config, ["kf"], transforms_of(long_survey), idle_timeout=0.5) as filters:
-        # GIVEN 30 s of answers that are settled by a pause
+def test_requests_are_answered_while_what_is_settled_is_published(session, sensors, long_survey, tmp_path):
+    settings = toolbox.write_yaml(tmp_path / "long.yaml", {**PATIENT, "lag": 200})
+    found = measurements(long_survey)
+    last, expected = max(message.header.stamp for _, message in found), len({message.header.stamp.to_nsec() for _, message in found})
+    with nodelet(session, sensors, "FilterNodelet", settings, ["kf"], transforms_of(long_survey), idle_timeout=0.5) as filters:
+        # GIVEN 200 s of answers that are settled by a pause
         sensors.feed(found)
+        wait_until(lambda: any(m.header.stamp == last for m in filters.odometry["kf"]), "the last answer")
         before = len(filters.settled["kf"])
         wait_until(lambda: len(filters.settled["kf"]) > before + 20, "the first of them")
-        # WHEN they are published, a few at a time THEN a request does not wait for the last
-        start = time.monotonic()
+        # WHEN they are published, a few at a time THEN a request is answered before the last of them
         assert filters.call("get_state_at", GetStateAt, found[-1][1].header.stamp, "kf").success
-        assert time.monotonic() - start < 0.3 and len(filters.settled["kf"]) < expected
+        assert len(filters.settled["kf"]) < expected
         # and none is lost
         wait_until(lambda: len(filters.settled["kf"]) == expected, "all of them")
 

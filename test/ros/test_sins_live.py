@@ -5,6 +5,7 @@ import pytest
 import rospy
 import toolbox
 from diagnostic_msgs.msg import DiagnosticArray
+from live import Listener, listening, statuses
 from nav_msgs.msg import Odometry
 from ros_session import wait_until
 from sas_motion.msg import FilterUpdate
@@ -31,23 +32,25 @@ def offline(bag, config, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def live(session, sensors, bag, config, offline):
+def live(session, bag, config, offline):
     """What was heard of a played bag until all had settled: settled answers, updates, diagnostics, and the answer for a ping between two stamps."""
-    settled, now, updates, status = [], [], [], []
-    subscribers = [rospy.Subscriber(f"{NAME}/{leaf}", kind, into.append, queue_size=10000) for leaf, kind, into in
-                   (("settled", Odometry, settled), ("odometry", Odometry, now), ("update", FilterUpdate, updates))]
-    subscribers.append(rospy.Subscriber("/diagnostics", DiagnosticArray, lambda a: status.extend(s for s in a.status if s.name == "ins: estimators")))
-    command = ("roslaunch", "sas_motion", "sins_dvl.launch", f"bag:={bag}", "rate:=2", f"config:={config}", f"estimators:=[{NAME}]", "start_delay:=8")
-    with session.running_process(*command) as launch:
-        wait_until(lambda: len(now) > 200 or launch.poll() is not None, "answers", 90)
+    settled, now = Listener(f"{NAME}/settled", Odometry), Listener(f"{NAME}/odometry", Odometry)
+    updates, diagnostics = Listener(f"{NAME}/update", FilterUpdate), Listener("/diagnostics", DiagnosticArray)
+    listeners = [settled, now, updates, diagnostics]
+    command = ("roslaunch", "sas_motion", "sins_dvl.launch", f"bag:={bag}", "rate:=2", f"config:={config}", f"estimators:=[{NAME}]", "start_delay:=0",
+               "play_options:=--pause")
+    with listening(listeners), session.running_process(*command) as launch:
+        wait_until(lambda: all(listener.connected() for listener in listeners) or launch.poll() is not None, "the tests listen")
         assert launch.poll() is None, launch.log.read_text()
+        session.play("/player", "/ins", ("gnss/fix", "gnss/velocity", "imu/data", "dvl/twist", "depth/pose", "tf_static"))
+        wait_until(lambda: len(now) > 200, "answers")
         stamp = rospy.Time(0, now[-1].header.stamp.to_nsec() - 27_000_000)
         answer = rospy.ServiceProxy("/ins/get_state_at", GetStateAt)(stamp, NAME)
-        wait_until(lambda: len(updates) == len(offline[f"{NAME}/update"]), "the last update", 90)
-        wait_until(lambda: len(settled) == len(offline[f"{NAME}/odometry"]), "the last answer", 30)
-    for subscriber in subscribers:
-        subscriber.unregister()
-    return settled, updates, {pair.key: pair.value for pair in status[-1].values}, answer, stamp
+        wait_until(lambda: len(updates) == len(offline[f"{NAME}/update"]), "the last update")
+        wait_until(lambda: len(settled) == len(offline[f"{NAME}/odometry"]), "the last answer")
+        count = len(diagnostics)
+        wait_until(lambda: len(diagnostics) > count + 1, "diagnostics of the end")
+    return settled, updates, {pair.key: pair.value for pair in statuses(diagnostics, "ins: estimators")[-1].values}, answer, stamp
 
 
 def test_live_and_offline_agree_to_the_last_bit(live, offline):

@@ -9,6 +9,7 @@ import rospy
 import toolbox
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
+from live import Listener, listening, statuses
 from ros_session import wait_until
 from sas_motion.msg import UsblCalibration
 from std_srvs.srv import Trigger
@@ -19,25 +20,9 @@ BLIND = toolbox.SCENARIOS / "usbl_centred_circle.yaml"
 SEEING = toolbox.SCENARIOS / "usbl_outliers.yaml"
 
 
-class Heard:
-    """What the nodelet has said so far."""
-
-    def __init__(self):
-        self.calibrations, self.status = [], []
-        self.subscribers = [rospy.Subscriber("hvbckf/calibration", UsblCalibration, self.calibrations.append),
-                            rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)]
-
-    def on_diagnostics(self, array):
-        self.status += [status for status in array.status if status.name == "usbl_calibration: calibration"]
-
-    def close(self):
-        for subscriber in self.subscribers:
-            subscriber.unregister()
-
-
 def call(name):
     service = f"/usbl_calibration/{name}"
-    rospy.wait_for_service(service, 20)
+    rospy.wait_for_service(service, 120)
     return rospy.ServiceProxy(service, Trigger)()
 
 
@@ -45,20 +30,27 @@ def played(session, scenario, folder):
     """What was heard of a simulated bag, the answer to ~save, what it wrote, and the bag."""
     bag = toolbox.simulate(folder / "run.bag", SECONDS, 3, scenario)
     last = max(message.header.stamp for _, message, _ in toolbox.messages(bag, "usbl/measurement"))
-    heard, output = Heard(), folder / "live.yaml"
-    command = ("roslaunch", "sas_motion", "usbl_calibration.launch", f"bag:={bag}", f"rate:={RATE}", f"output:={output}", "start_delay:=4",
-               "tolerance_deg:=0.3", "tolerance:=0.3")
-    with session.running_process(*command):
-        wait_until(lambda: heard.calibrations and (last - heard.calibrations[-1].header.stamp).to_sec() < 1.5, "the last ping", 60)
-        wait_until(lambda: heard.status and not re.search("starting|no ping", heard.status[-1].message), "diagnostics", 20)
+    output = folder / "live.yaml"
+    calibrations, diagnostics = Listener("hvbckf/calibration", UsblCalibration), Listener("/diagnostics", DiagnosticArray)
+    command = ("roslaunch", "sas_motion", "usbl_calibration.launch", f"bag:={bag}", f"rate:={RATE}", f"output:={output}", "start_delay:=0",
+               "play_options:=--pause", "tolerance_deg:=0.3", "tolerance:=0.3")
+
+    def newest():
+        return statuses(diagnostics, "usbl_calibration: calibration")[-1:]
+    with listening([calibrations, diagnostics]), session.running_process(*command) as launch:
+        wait_until(lambda: (calibrations.connected() and newest()) or launch.poll() is not None, "the tests listen")
+        assert launch.poll() is None, launch.log.read_text()
+        session.play("/player", "/usbl_calibration", [topic for topic in toolbox.topics(bag) if not topic.startswith("truth/")])
+        wait_until(lambda: calibrations and (last - calibrations[-1].header.stamp).to_sec() < 1.5, "the last ping")
+        count = len(diagnostics)
+        wait_until(lambda: len(diagnostics) > count + 1 and not re.search("starting|no ping", newest()[0].message), "diagnostics")
         answer = call("save")
-        status = heard.status[-1]
-    heard.close()
-    return heard.calibrations, status, answer, output, bag
+        status = newest()[0]
+    return calibrations, status, answer, output, bag
 
 
 @pytest.fixture(scope="module")
-def seeing(session, sensors, tmp_path_factory):
+def seeing(session, tmp_path_factory):
     return played(session, SEEING, tmp_path_factory.mktemp("seeing"))
 
 
@@ -95,7 +87,7 @@ def test_it_saves_what_calibrate_usbl_says_of_the_bag(seeing, tmp_path):
         assert max(abs(a - b) / s for a, b, s in zip(live["correction"][key], offline["correction"][key], spread)) < 0.2
 
 
-def test_a_centred_circle_gets_no_confidence(session, sensors, tmp_path):
+def test_a_centred_circle_gets_no_confidence(session, tmp_path):
     calibrations, status, answer, output, _ = played(session, BLIND, tmp_path)
     assert not calibrations[-1].observable and not calibrations[-1].within_tolerance
     assert status.level == 1 and "not observable" in status.message
