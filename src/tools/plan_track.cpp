@@ -11,9 +11,9 @@
 
 #include "sas_motion/evaluation/information.hpp"
 #include "sas_motion/math/angles.hpp"
-#include "sas_motion/systems/usbl/observability.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 #include "sas_motion/systems/usbl/simulator.hpp"
-#include "systems/usbl/ros/settings.hpp"
+#include "systems/usbl/ros/conversions.hpp"
 #include "tools/main_guard.hpp"
 
 namespace {
@@ -95,8 +95,7 @@ bool run(const Options& options) {
     throw std::runtime_error(fmt::format("{}: gives no ping in {} s; check usbl.rate and the duration",
                                          options.scenario, scenario.duration));
   Vector<kChannels> factor;
-  for (int i = 0; i < kChannels; ++i)
-    factor(i) = MeasurementInformation(scenario.noise[static_cast<std::size_t>(i)]).factor();
+  for (int i = 0; i < kChannels; ++i) factor(i) = MeasurementInformation(scenario.noise[i]).factor();
   const Observability result = observability(problem, scenario.truth, factor);
 
   fmt::print("{}: {} pings in {} s at {} m/s, {}\n\n{:<20}{:>14}{:>14}\n", scenario.name, problem.pings.size(),
@@ -104,7 +103,7 @@ bool run(const Options& options) {
   for (const int i : result.unknowns) {
     const double unit = isAngle(i) ? kRadPerDeg : 1;
     const char* name = isAngle(i) ? "deg" : i == kRangeScale ? "-" : "m";
-    fmt::print("{:<20}{:>14.4f}{:>14.4f}\n", fmt::format("{} [{}]", unknownNames()[static_cast<std::size_t>(i)], name),
+    fmt::print("{:<20}{:>14.4f}{:>14.4f}\n", fmt::format("{} [{}]", unknownNames()[i], name),
                problem.prior.sigma(i) / unit, result.bound(i) / unit);
   }
   fmt::print("\nsingular values of the pings' information over the prior's: {:.3g}\n",

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/usbl/observability.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
@@ -9,17 +7,19 @@
 #include <cmath>
 #include <numeric>
 
+#include "sas_motion/systems/usbl/problem.hpp"
+
 namespace sas_motion::usbl {
 namespace {
 
-constexpr double kWellKnown = 0.2;   // of the prior's standard deviation: what is known no better rests on the prior
-constexpr double kNoticeable = 0.3;  // a component of the weak direction that is worth naming
+constexpr double kWellKnown = 0.2;   // of the prior's sigma: larger sigmas of the pings mean not observable
+constexpr double kNoticeable = 0.3;  // least component of the weak direction that the verdict names
 
 const char* plainName(int unknown) {
   static const std::array<const char*, kStates> names{"pitch mounting angle",   "roll mounting angle",
                                                       "heading mounting angle", "athwartships lever arm",
                                                       "fore-and-aft lever arm", "vertical lever arm"};
-  return names[static_cast<std::size_t>(unknown)];
+  return names[unknown];
 }
 
 std::string list(std::vector<std::string> names) {
@@ -47,13 +47,12 @@ std::string verdictOf(const Observability& result) {
   const bool several = what.find(" and ") != std::string::npos;
   return fmt::format(
       "not observable: {} pings on this track cannot {} {}; what is given for {} rests on the prior; sail a "
-      "figure-eight over the transponder, crossing lines "
-      "or a circle beside it",
+      "figure-eight over the transponder, crossing lines or a circle beside it",
       result.pings, several ? "separate" : "tell", what, several ? "them" : "it");
 }
 
-/// What the pings tell of mounting and lever arm, in units of their prior's standard deviations. The prior of the other
-/// unknowns is no guess but a survey's or a probe's: it counts, and they are eliminated.
+/// The pings' information on mounting and lever arm in units of the prior's sigmas. The other unknowns are eliminated,
+/// with their prior, which comes from a survey or a probe.
 Matrix<kStates> knownOfMounting(const Matrix<kUnknowns>& data, const Prior& prior) {
   constexpr int kOthers = kUnknowns - kStates;
   const Matrix<kUnknowns> scaled = prior.sigma.asDiagonal() * data * prior.sigma.asDiagonal();
@@ -68,7 +67,7 @@ Observability observability(const Matrix<kUnknowns>& data, const Prior& prior, s
   Observability result;
   result.pings = pings;
   for (int i = 0; i < kUnknowns; ++i)
-    if (prior.estimated[static_cast<std::size_t>(i)]) result.unknowns.push_back(i);
+    if (prior.estimated[i]) result.unknowns.push_back(i);
   const auto n =
       static_cast<Eigen::Index>(std::count(prior.estimated.begin(), prior.estimated.begin() + kStates, true));
   result.bound = covarianceFrom(data, prior).diagonal().cwiseSqrt();
@@ -76,9 +75,7 @@ Observability observability(const Matrix<kUnknowns>& data, const Prior& prior, s
   const Matrix<kStates> known = knownOfMounting(data, prior);
   Eigen::MatrixXd scaled(n, n);
   for (Eigen::Index row = 0; row < n; ++row)
-    for (Eigen::Index col = 0; col < n; ++col)
-      scaled(row, col) =
-          known(result.unknowns[static_cast<std::size_t>(row)], result.unknowns[static_cast<std::size_t>(col)]);
+    for (Eigen::Index col = 0; col < n; ++col) scaled(row, col) = known(result.unknowns[row], result.unknowns[col]);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   for (Eigen::Index i = n - 1; i >= 0; --i) result.singular_values.push_back(std::max(0.0, eigen.eigenvalues()(i)));
   const Eigen::VectorXd weak =

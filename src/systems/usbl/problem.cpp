@@ -24,8 +24,7 @@ Vector<kChannels> normalisedResidual(const Problem& problem, const Ping& ping, c
 double cost(const Problem& problem, const Loss& loss, const Unknowns& x) {
   double sum = 0;
   for (int i = 0; i < kUnknowns; ++i)
-    if (problem.prior.estimated[static_cast<std::size_t>(i)])
-      sum += 0.5 * std::pow((x(i) - problem.prior.mean(i)) / problem.prior.sigma(i), 2);
+    if (problem.prior.estimated[i]) sum += 0.5 * std::pow((x(i) - problem.prior.mean(i)) / problem.prior.sigma(i), 2);
   for (const auto& ping : problem.pings) {
     const Vector<kChannels> residual = normalisedResidual(problem, ping, x);
     for (int i = 0; i < kChannels; ++i) sum += loss.rho(residual(i));
@@ -43,18 +42,18 @@ Matrix<kUnknowns> information(const Problem& problem, const Unknowns& x, const V
                (factor(i) / (problem.scale(i) * problem.scale(i) * ping.reading.variance(i)));
   }
   for (int i = 0; i < kUnknowns; ++i)
-    if (!problem.prior.estimated[static_cast<std::size_t>(i)]) sum.row(i).setZero(), sum.col(i).setZero();
+    if (!problem.prior.estimated[i]) sum.row(i).setZero(), sum.col(i).setZero();
   return sum;
 }
 
 Matrix<kUnknowns> covarianceFrom(const Matrix<kUnknowns>& data, const Prior& prior) {
-  // in units of the prior's standard deviations, in which the prior's information is the identity
+  // In units of the prior's sigmas the prior's information is the identity.
   const Matrix<kUnknowns> scaled =
       prior.sigma.asDiagonal() * data * prior.sigma.asDiagonal() + Matrix<kUnknowns>::Identity();
   Matrix<kUnknowns> covariance =
       prior.sigma.asDiagonal() * scaled.llt().solve(Matrix<kUnknowns>::Identity()) * prior.sigma.asDiagonal();
   for (int i = 0; i < kUnknowns; ++i)
-    if (!prior.estimated[static_cast<std::size_t>(i)]) covariance.row(i).setZero(), covariance.col(i).setZero();
+    if (!prior.estimated[i]) covariance.row(i).setZero(), covariance.col(i).setZero();
   return covariance;
 }
 

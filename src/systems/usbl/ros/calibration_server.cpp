@@ -77,7 +77,7 @@ void CalibrationServer::beginAnew() {
   std::map<std::uint32_t, Geodetic> surveyed;
   if (ingest_) surveyed = ingest_->transponders();
   ingest_ = std::make_unique<UsblIngest>(settings_, transforms_);
-  for (const auto& [id, position] : surveyed) ingest_->setTransponder(id, position);  // latched: it is told once
+  for (const auto& [id, position] : surveyed) ingest_->setTransponder(id, position);  // latched: sent once
   if (lanes_.empty())
     for (const auto& name : names_)
       lanes_.push_back({name, usbl::Calibrator(name, settings_.calibration),
@@ -104,7 +104,7 @@ void CalibrationServer::receive(const std::string& frame, std::function<void()> 
   for (const auto& ping : ingest_->builder().take()) process(ping);
 }
 
-/// The array usually has no transform, as nobody knows it yet; where it has a nominal one, that must not be missed.
+/// The array usually has no transform, but a nominal one must not be missed.
 bool CalibrationServer::transformsReady() {
   if ((ros::WallTime::now() - first_message_).toSec() > transform_wait_) return true;
   return frames_.size() >= 3 && std::all_of(frames_.begin(), frames_.end(), [&](const std::string& frame) {
@@ -165,8 +165,8 @@ void CalibrationServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   const usbl::State sigma = first.belief().covariance.diagonal().cwiseSqrt();
   for (int i = 0; i < usbl::kStates; ++i) {
     const double unit = usbl::isAngle(i) ? kRadPerDeg : 1;
-    status.addf(usbl::unknownNames()[static_cast<std::size_t>(i)] + (usbl::isAngle(i) ? " [deg]" : " [m]"),
-                "%.4f +- %.4f", first.belief().mean(i) / unit, 3 * sigma(i) / unit);
+    status.addf(usbl::unknownNames()[i] + (usbl::isAngle(i) ? " [deg]" : " [m]"), "%.4f +- %.4f",
+                first.belief().mean(i) / unit, 3 * sigma(i) / unit);
   }
   status.addf("pings", "%zu", observability_.pings);
   status.addf("measurements", "%lu", ingest_->builder().readings());

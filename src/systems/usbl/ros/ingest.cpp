@@ -5,7 +5,6 @@
 namespace sas_motion::ros_side {
 
 void UsblIngest::takeFix(const sensor_msgs::NavSatFix& message) {
-  ++counts_.fixes;
   if (!hasPosition(message) || !std::isfinite(message.altitude)) {
     ++counts_.no_fix;
     return;
@@ -29,7 +28,6 @@ void UsblIngest::setTransponder(std::uint32_t id, const Geodetic& position) {
 }
 
 void UsblIngest::take(const sensor_msgs::Imu& message) {
-  ++counts_.attitudes;
   const auto T = sensorAt(message.header.frame_id);
   if (!T) return;
   const auto C_map_body = rotationOf(message, *T);
