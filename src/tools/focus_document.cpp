@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/focus_document.hpp"
+#include "tools/focus_steps.hpp"
 
 #include <fmt/format.h>
 

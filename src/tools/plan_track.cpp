@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// plan_track SCENARIO.yaml [--track waypoints.csv]: what a track could tell of a USBL array's mounting, before it is
-// sailed.
+// plan_track SCENARIO.yaml [--track waypoints.csv]: predicts how well a planned track determines a USBL array's mounting.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,7 +27,7 @@ struct Options {
   double duration = 0;
 };
 
-/// Two numbers and nothing else.
+/// The two numbers of a line; nothing for other lines.
 std::optional<Vector<2>> pairOf(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
   std::istringstream stream(line);
@@ -38,8 +37,7 @@ std::optional<Vector<2>> pairOf(std::string line) {
   return pair;
 }
 
-/// Waypoints, east and north of the datum, from a file whose first line is `east,north` [m] or `latitude,longitude`
-/// [deg].
+/// Waypoints, east and north of the datum [m], from a file with the header `east,north` [m] or `latitude,longitude` [deg].
 std::vector<Vector<2>> readWaypoints(const std::string& file, const Geodetic& datum) {
   std::ifstream stream(file);
   std::string line;
@@ -67,12 +65,12 @@ std::vector<Vector<2>> readWaypoints(const std::string& file, const Geodetic& da
   return points;
 }
 
-/// What the pings along the scenario's track would be, with the noise that it says.
+/// The pings along the scenario's track without noise, but with the variance of good noise.
 Problem planned(const Scenario& scenario, const Config& config) {
   Problem problem{Model(config.mode), config.prior, {}, Vector<kChannels>::Ones()};
   for (const auto& labelled : simulatePings(scenario, 1)) {
     Ping ping = labelled.ping;
-    ping.reading.value = Model().predict(scenario.truth, ping);  // noise itself would only blur the bound
+    ping.reading.value = Model().predict(scenario.truth, ping);
     ping.reading.variance /= scenario.stated_factor;
     ping.reading = problem.model.convert(ping.reading);
     problem.pings.push_back(ping);
