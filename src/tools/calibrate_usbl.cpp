@@ -67,7 +67,8 @@ int main(int argc, char** argv) {
       "calibrate_usbl");
   app.footer(
       "Beside the calibration a trace of the same name with .json is written, for calibration_report.py. The exit "
-      "status is 0 for a calibration that may\nbe trusted, 3 for one that says itself that it may not (the track cannot "
+      "status is 0 for a calibration that may\nbe trusted, 3 for one that says itself that it may not (the track "
+      "cannot "
       "tell, a filter and batch disagree, or most readings contradict it), 1 where there is none, 2 for a wrong\n"
       "command line.");
   app.add_option("BAG", options.bag, "bag to read")->required();

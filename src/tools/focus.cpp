@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app(
       "What a synthetic aperture sonar would see with each trajectory in a bag: echoes of a scene are simulated on "
-      "truth/odometry and focused along truth and along each NAME/odometry. Writes NAME.npy, NAME.json and NAME.png, the measures of all in focus.json, and the images "
+      "truth/odometry and focused along truth and along each NAME/odometry. Writes NAME.npy, NAME.json and NAME.png, "
+      "the measures of all in focus.json, and the images "
       "beside each other in focus.png.",
       "focus");
   app.add_option("BAG", options.bag, "bag with truth and estimates")->required();

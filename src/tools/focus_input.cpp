@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/focus_steps.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "bag/answer_topics.hpp"
 #include "ros/solution_messages.hpp"
+#include "tools/focus_steps.hpp"
 
 namespace sas_motion {
 

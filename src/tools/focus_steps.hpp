@@ -4,8 +4,9 @@
 
 #include <string>
 #include <vector>
-#include "sas_motion/imaging/trajectory.hpp"
+
 #include "sas_motion/imaging/focus_bench.hpp"
+#include "sas_motion/imaging/trajectory.hpp"
 
 namespace sas_motion {
 
@@ -15,8 +16,8 @@ struct RecordedTrajectory {
   imaging::Trajectory trajectory;
 };
 
-/// Reads the truth, then the estimates of a bag from topics of type nav_msgs/Odometry: NAME/settled where the bag has it,
-/// else NAME/odometry; or only the `wanted` ones, each a topic or a NAME. Poses without a finite position or an
+/// Reads the truth, then the estimates of a bag from topics of type nav_msgs/Odometry: NAME/settled where the bag has
+/// it, else NAME/odometry; or only the `wanted` ones, each a topic or a NAME. Poses without a finite position or an
 /// orientation are left out. Truth is moved to the frame of the estimates where the bag has the topics datum and
 /// truth/fix. Throws std::runtime_error with one sentence that names the bag and the topic.
 std::vector<RecordedTrajectory> readTrajectories(const std::string& bag, const std::vector<std::string>& wanted);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// plan_track SCENARIO.yaml [--track waypoints.csv]: predicts how well a planned track determines a USBL array's mounting.
+// plan_track SCENARIO.yaml [--track waypoints.csv]: predicts how well a planned track determines a USBL array's
+// mounting.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,10 +10,9 @@
 #include <sstream>
 
 #include "sas_motion/evaluation/information.hpp"
-#include "sas_motion/math/angles.hpp"
 #include "sas_motion/systems/usbl/problem.hpp"
 #include "sas_motion/systems/usbl/simulator.hpp"
-#include "systems/usbl/ros/conversions.hpp"
+#include "systems/usbl/ros/calibration_result.hpp"
 #include "tools/main_guard.hpp"
 
 namespace {
@@ -37,7 +37,8 @@ std::optional<Vector<2>> pairOf(std::string line) {
   return pair;
 }
 
-/// Waypoints, east and north of the datum [m], from a file with the header `east,north` [m] or `latitude,longitude` [deg].
+/// Waypoints, east and north of the datum [m], from a file with the header `east,north` [m] or `latitude,longitude`
+/// [deg].
 std::vector<Vector<2>> readWaypoints(const std::string& file, const Geodetic& datum) {
   std::ifstream stream(file);
   std::string line;
@@ -99,10 +100,9 @@ bool run(const Options& options) {
   fmt::print("{}: {} pings in {} s at {} m/s, {}\n\n{:<20}{:>14}{:>14}\n", scenario.name, problem.pings.size(),
              scenario.duration, scenario.track.speed, modeName(config.mode), "", "known before", "bound after");
   for (const int i : result.unknowns) {
-    const double unit = isAngle(i) ? kRadPerDeg : 1;
-    const char* name = isAngle(i) ? "deg" : i == kRangeScale ? "-" : "m";
-    fmt::print("{:<20}{:>14.4f}{:>14.4f}\n", fmt::format("{} [{}]", unknownNames()[i], name),
-               problem.prior.sigma(i) / unit, result.bound(i) / unit);
+    const std::string name = fmt::format("{} [{}]", unknownNames()[i], ros_side::tableUnit(i));
+    fmt::print("{:<20}{:>14.4f}{:>14.4f}\n", name, ros_side::inTableUnit(i, problem.prior.sigma(i)),
+               ros_side::inTableUnit(i, result.bound(i)));
   }
   fmt::print("\nsingular values of the pings' information over the prior's: {:.3g}\n",
              fmt::join(result.singular_values, ", "));

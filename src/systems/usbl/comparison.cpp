@@ -47,13 +47,8 @@ Estimated runFilter(const std::string& name, const std::vector<Ping>& pings, con
 
 Estimated runFitter(const std::string& name, const Fitter& fitter, const Problem& problem, const Config& config) {
   const Fit found = fitter(problem, config.fit);
-  Estimated result;
-  result.name = name;
-  result.x = found.x;
-  result.covariance = found.covariance;
-  result.noise.assign(problem.pings.size(), found.scale);
-  if (!found.failure.empty()) result.failure = name + ": " + found.failure;
-  return result;
+  const std::vector<Vector<kChannels>> noise(problem.pings.size(), found.scale);
+  return {name, found.x, found.covariance, noise, {}, 0, found.failure.empty() ? "" : name + ": " + found.failure};
 }
 
 bool beyondTheMounting(const Prior& prior) {

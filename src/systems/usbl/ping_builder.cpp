@@ -65,24 +65,20 @@ void PingBuilder::addAttitude(Stamp stamp, const Matrix<3>& C_map_body) {
 void PingBuilder::addReading(Stamp stamp, std::uint32_t transponder, const Reading& reading) {
   ++readings_;
   latest_ = stamp;
-  const std::pair key(stamp, transponder);
+  const Key key(stamp, transponder);
   if (!usable(reading))
     omit(Omission::NoChannel);
-  else if ((decided_ && key <= *decided_) || !waiting_.emplace(key, Waiting{transponder, reading}).second)
+  else if ((decided_ && key <= *decided_) || !waiting_.emplace(key, reading).second)
     omit(Omission::Late);
 }
-
-std::vector<Ping> PingBuilder::take() { return build(false); }
-
-std::vector<Ping> PingBuilder::finish() { return build(true); }
 
 /// Builds pings from the oldest reading to the first that has to wait.
 std::vector<Ping> PingBuilder::build(bool all) {
   std::vector<Ping> pings;
   while (!waiting_.empty()) {
-    const auto& [key, waiting] = *waiting_.begin();
+    const auto& [key, reading] = *waiting_.begin();
     Omission why{};
-    const auto ping = assemble(key.first, waiting, why);
+    const auto ping = assemble(key, reading, why);
     if (!ping && !all && secondsBetween(key.first, latest_) <= options_.wait) break;
     if (ping)
       pings.push_back(*ping);
@@ -95,8 +91,9 @@ std::vector<Ping> PingBuilder::build(bool all) {
   return pings;
 }
 
-std::optional<Ping> PingBuilder::assemble(Stamp stamp, const Waiting& waiting, Omission& why) const {
-  const auto transponder = transponders_.find(waiting.transponder);
+std::optional<Ping> PingBuilder::assemble(const Key& key, const Reading& reading, Omission& why) const {
+  const Stamp stamp = key.first;
+  const auto transponder = transponders_.find(key.second);
   why = Omission::NoTransponder;
   if (transponder == transponders_.end() || !onEarth(transponder->second)) return std::nullopt;
   const auto position = referenceAt(stamp, why);
@@ -111,7 +108,7 @@ std::optional<Ping> PingBuilder::assemble(Stamp stamp, const Waiting& waiting, O
   ping.C_body_map = (C_map_body * nominal_.C_body_array).transpose();
   ping.transponder_map =
       LocalFrame(frame_->geodetic(*position)).position_enu(transponder->second) - C_map_body * nominal_.lever_arm_body;
-  ping.reading = waiting.reading;
+  ping.reading = reading;
   return ping;
 }
 

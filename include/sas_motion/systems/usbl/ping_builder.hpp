@@ -51,29 +51,27 @@ class PingBuilder {
   void addReading(Stamp stamp, std::uint32_t transponder, const Reading& reading);
 
   /// The pings that need not wait.
-  std::vector<Ping> take();
+  std::vector<Ping> take() { return build(false); }
   /// All further pings, at the end of the data.
-  std::vector<Ping> finish();
+  std::vector<Ping> finish() { return build(true); }
 
   std::uint64_t omitted(Omission omission) const { return omitted_[static_cast<std::size_t>(omission)]; }
   std::uint64_t readings() const { return readings_; }
   const Mounting& nominal() const { return nominal_; }
+  const std::map<std::uint32_t, Geodetic>& transponders() const { return transponders_; }
 
  private:
   struct Fix {
     Vector<3> antenna_frame;  // in frame_
     Vector<3> lever_arm_body;
   };
-  struct Waiting {
-    std::uint32_t transponder;
-    Reading reading;
-  };
+  using Key = std::pair<Stamp, std::uint32_t>;  // stamp and transponder of a reading
   using Attitudes = std::map<Stamp, Eigen::Quaterniond>;
   using Fixes = std::map<Stamp, Fix>;
 
   std::vector<Ping> build(bool all);
   /// A ping, or the reason for none.
-  std::optional<Ping> assemble(Stamp stamp, const Waiting& waiting, Omission& why) const;
+  std::optional<Ping> assemble(const Key& key, const Reading& reading, Omission& why) const;
   std::optional<Eigen::Quaterniond> attitudeAt(Stamp stamp) const;
   std::optional<Vector<3>> referenceAt(Stamp stamp, Omission& why) const;
   std::optional<Vector<3>> reference(Fixes::const_iterator fix) const;
@@ -86,8 +84,8 @@ class PingBuilder {
   std::map<std::uint32_t, Geodetic> transponders_;
   Attitudes attitudes_;
   Fixes fixes_;
-  std::map<std::pair<Stamp, std::uint32_t>, Waiting> waiting_;
-  std::optional<std::pair<Stamp, std::uint32_t>> decided_;  // the last reading that left waiting_
+  std::map<Key, Reading> waiting_;
+  std::optional<Key> decided_;  // the last reading that left waiting_
   std::optional<Stamp> first_fix_;
   Stamp latest_ = 0;  // stamp of the reading that arrived last
   std::array<std::uint64_t, kOmissions> omitted_{};

@@ -44,6 +44,9 @@ class CalibrationServer {
   };
 
   void beginAnew();
+  /// `has_frame` tells whether the messages' frame_id is a frame.
+  template <class Message>
+  void subscribe(const std::string& topic, void (UsblIngest::*take)(const Message&), bool has_frame = true);
   /// Runs a message's handler, at first after a wait for transforms.
   void receive(const std::string& frame, std::function<void()> handler);
   bool transformsReady();

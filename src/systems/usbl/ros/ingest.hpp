@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -37,12 +36,9 @@ class UsblIngest {
   void take(const sensor_msgs::Imu& message);
   void take(const sas_motion::UsblMeasurement& message);
 
-  void setTransponder(std::uint32_t id, const Geodetic& position);
-
   usbl::PingBuilder& builder() { return builder_; }
   const usbl::PingBuilder& builder() const { return builder_; }
   const Counts& counts() const { return counts_; }
-  const std::map<std::uint32_t, Geodetic>& transponders() const { return transponders_; }
   /// Frame of the array that is calibrated; empty before its first measurement.
   const std::string& arrayFrame() const { return array_frame_; }
   bool hasNominal() const { return has_nominal_; }
@@ -55,7 +51,6 @@ class UsblIngest {
   SensorFrames frames_;
   usbl::PingBuilder builder_;
   Counts counts_;
-  std::map<std::uint32_t, Geodetic> transponders_;
   std::string array_frame_;
   bool has_nominal_ = false;
 };

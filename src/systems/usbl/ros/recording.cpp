@@ -66,7 +66,7 @@ std::string whyNoPing(const std::string& file, const UsblSettings& settings, con
     return fmt::format("{}: no measurement of the array {}; check frames.array", file, settings.array_frame);
   if (recording.readings == 0)
     return fmt::format("{}: topic {} holds no measurement", file, settings.measurement_topic);
-  if (ingest.transponders().empty())
+  if (ingest.builder().transponders().empty())
     return fmt::format(
         "{}: topic {} holds no transponder whose frame_id is a number, its id; without its surveyed position nothing "
         "can be calibrated",
@@ -90,7 +90,8 @@ void UsblRecording::takeSummary(const UsblIngest& ingest) {
   has_nominal = ingest.hasNominal();
   array_frame = ingest.arrayFrame();
   readings = ingest.builder().readings();
-  if (!ingest.transponders().empty()) transponder = ingest.transponders().begin()->second;
+  const auto& transponders = ingest.builder().transponders();
+  if (!transponders.empty()) transponder = transponders.begin()->second;
   for (int i = 0; i < usbl::kOmissions; ++i) {
     const auto omission = static_cast<usbl::Omission>(i);
     count(left_out, usbl::omissionText(omission), ingest.builder().omitted(omission));
