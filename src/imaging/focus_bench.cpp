@@ -12,8 +12,7 @@
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/image.hpp"
 #include "sas_motion/imaging/motion_compensation.hpp"
-#include "sas_motion/imaging/phase_gradient.hpp"
-#include "sas_motion/imaging/range_compression.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 
 namespace sas_motion::imaging {
