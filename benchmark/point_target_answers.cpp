@@ -14,7 +14,7 @@
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/image.hpp"
 #include "sas_motion/imaging/point_target.hpp"
-#include "sas_motion/imaging/range_compression.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace {

@@ -11,7 +11,7 @@
 #include <map>
 
 #include "sas_motion/math/statistics.hpp"
-#include "sas_motion/systems/usbl/observability.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 #include "systems/usbl/estimate.hpp"
 #include "systems/usbl/graph/batch.hpp"
 

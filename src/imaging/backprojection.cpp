@@ -42,16 +42,14 @@ class Tiling {
     return grid_.point(patch.row + 0.5 * (patch.rows - 1), patch.column + 0.5 * (patch.columns - 1));
   }
   Tile tile(const Patch& patch, double cycles_per_metre, double samples_per_metre) const {
-    Tile tile;
-    tile.rows = patch.rows;
-    tile.columns = columns_;
-    tile.range_step = static_cast<float>(grid_.range_step);
-    tile.along_step = static_cast<float>(grid_.along_step);
-    tile.first_range = static_cast<float>(-0.5 * (patch.rows - 1) * grid_.range_step);
-    tile.first_track = static_cast<float>(-0.5 * (patch.columns - 1) * grid_.along_step);
-    tile.cycles_per_metre = static_cast<float>(cycles_per_metre);
-    tile.samples_per_metre = static_cast<float>(samples_per_metre);
-    return tile;
+    return {patch.rows,
+            columns_,
+            static_cast<float>(-0.5 * (patch.rows - 1) * grid_.range_step),
+            static_cast<float>(-0.5 * (patch.columns - 1) * grid_.along_step),
+            static_cast<float>(grid_.range_step),
+            static_cast<float>(grid_.along_step),
+            static_cast<float>(cycles_per_metre),
+            static_cast<float>(samples_per_metre)};
   }
 
  private:

@@ -12,8 +12,7 @@
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/image.hpp"
 #include "sas_motion/imaging/motion_compensation.hpp"
-#include "sas_motion/imaging/phase_gradient.hpp"
-#include "sas_motion/imaging/range_compression.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 
 namespace sas_motion::imaging {
@@ -28,13 +27,8 @@ double lengthOf(const std::vector<PingPose>& poses) {
 /// Compressed echoes on the true track.
 EchoLines simulatedLines(const FocusSettings& settings, const std::vector<PingPose>& truth, const ImageGrid& grid,
                          int threads) {
-  EchoOptions echo;
-  echo.noise = settings.noise;
-  echo.seed = settings.seed;
-  echo.threads = threads;
-  CompressionOptions compression;
-  compression.filter = RangeFilter::Equalized;
-  compression.threads = threads;
+  const EchoOptions echo{{}, settings.noise, settings.seed, threads};
+  const CompressionOptions compression{RangeFilter::Equalized, RangeWindow::Rectangular, threads};
   return compressRange(
       simulateEchoes(settings.sonar, echoPaths(settings.sonar, truth), focusScene(settings, grid), echo),
       settings.sonar, compression);
@@ -86,9 +80,7 @@ FocusedImage FocusBench::focus(const std::vector<PingPose>& poses) {
 
 FocusedImage FocusBench::compensate(const std::vector<PingPose>& poses) {
   lines_.paths = echoPaths(settings_.sonar, poses);
-  CompensationOptions options;
-  options.starboard = settings_.starboard;
-  options.threads = threads_;
+  const CompensationOptions options{0, settings_.starboard, threads_};
   return backprojected(compensateMotion(lines_, fitTrack(lines_), settings_.sonar.bandwidth, options), poses);
 }
 
@@ -98,9 +90,7 @@ FocusedImage FocusBench::autofocus(const FocusedImage& focused, const std::vecto
 
 /// Moves the grid to where the trajectory's error moves the image.
 FocusedImage FocusBench::backprojected(const EchoLines& lines, const std::vector<PingPose>& poses) const {
-  BackprojectionOptions options;
-  options.threads = threads_;
-  options.memory_limit = settings_.memory_limit;
+  const BackprojectionOptions options{threads_, settings_.memory_limit};
   ImageGrid grid = grid_;
   grid.origin += error(poses).image_shift;
   return measured(backproject(lines, grid, options), poses);
@@ -121,10 +111,7 @@ PointTargetMeasures FocusBench::measuredTarget(const Image& image, const std::ve
                                                std::size_t target) const {
   const Eigen::Vector3d& place = places_[target];
   const auto error = apertureTrajectoryError(settings_.sonar, times_, truth_, poses, place);
-  ChipOptions chip;
-  chip.half_size = kHalfChip;
-  chip.search_radius = searchRadius(settings_, grid_, kHalfChip);
-  chip.reference_power = reference_powers_[target];
+  const ChipOptions chip{kHalfChip, searchRadius(settings_, grid_, kHalfChip), reference_powers_[target]};
   auto measures = measurePointTarget(image, place + error.image_shift, chip);
   if (measures.complete) measures.peak_error = (measures.peak_position - place).head<2>().norm();
   return measures;

@@ -46,10 +46,7 @@ int pixelCount(const char* key, double length, double step) {
 
 Scene speckle(const FocusSettings& settings, const ImageGrid& grid) {
   const Eigen::Vector3d a = grid.point(0, 0), b = grid.point(grid.rows, grid.columns);
-  SpeckleOptions options;
-  options.lower = a.cwiseMin(b);
-  options.upper = a.cwiseMax(b);
-  options.density = settings.speckle.density;
+  const SpeckleOptions options{a.cwiseMin(b), a.cwiseMax(b), settings.speckle.density};
   std::vector<Block> blocks;
   if (settings.speckle.block) {
     const Eigen::Vector3d middle = targetPlaces(settings).front() +

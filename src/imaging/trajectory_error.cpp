@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/trajectory_error.hpp"
+#include "sas_motion/imaging/trajectory.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -18,7 +18,7 @@ namespace {
 using namespace sas_motion;
 using namespace sas_motion::ros_side;
 
-constexpr int kNotTrusted = 3;  // exit status of a calibration that says itself that it is not to be trusted
+constexpr int kNotTrusted = 3;  // exit status
 
 struct Options {
   std::string bag, out = "calibration.yaml", config, mode;
@@ -31,10 +31,8 @@ CalibrationResult calibrate(const Options& options) {
   result.settings = UsblSettings::fromFile(options.config);
   if (!options.mode.empty()) result.settings.calibration.mode = usbl::modeFromName(options.mode);
   {
-    const double seconds = [&] {
-      BagReader bag(options.bag);
-      return (bag.end() - bag.begin()).toSec();
-    }();
+    const BagReader bag(options.bag);
+    const double seconds = (bag.end() - bag.begin()).toSec();
     Progress progress("read", seconds, seconds);
     result.recording =
         UsblRecording::read(options.bag, result.settings, [&](double passed) { progress.advance(passed); });
@@ -69,10 +67,9 @@ int main(int argc, char** argv) {
       "calibrate_usbl");
   app.footer(
       "Beside the calibration a trace of the same name with .json is written, for calibration_report.py. The exit "
-      "status is 0 for a calibration that may\n"
-      "be trusted, 3 for one that says itself that it may not (the track cannot tell, a filter and batch disagree, or "
-      "most readings contradict it), 1 where "
-      "there is none, 2 for a wrong\n"
+      "status is 0 for a calibration that may\nbe trusted, 3 for one that says itself that it may not (the track "
+      "cannot "
+      "tell, a filter and batch disagree, or most readings contradict it), 1 where there is none, 2 for a wrong\n"
       "command line.");
   app.add_option("BAG", options.bag, "bag to read")->required();
   app.add_option("-o,--output", options.out, "calibration to write (YAML; default: calibration.yaml)");

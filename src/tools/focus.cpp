@@ -10,8 +10,7 @@
 
 #include "sas_motion/imaging/focus_scene.hpp"
 #include "sas_motion/io/atomic_file.hpp"
-#include "tools/focus_document.hpp"
-#include "tools/focus_window.hpp"
+#include "tools/focus_steps.hpp"
 #include "tools/main_guard.hpp"
 #include "tools/progress.hpp"
 
@@ -27,7 +26,7 @@ struct Options {
   bool autofocus = false, figures = true;
 };
 
-/// By the script beside this tool, which reads what stands in the folder.
+/// Draws the figures of a folder by the script beside this tool.
 void drawFigures(const std::string& folder) {
   const std::string script = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plot_focus.py").string();
   std::string first = script, second = folder;
@@ -71,9 +70,8 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app(
       "What a synthetic aperture sonar would see with each trajectory in a bag: echoes of a scene are simulated on "
-      "truth/odometry and focused along truth and "
-      "along "
-      "each NAME/odometry. Writes NAME.npy, NAME.json and NAME.png, the measures of all in focus.json, and the images "
+      "truth/odometry and focused along truth and along each NAME/odometry. Writes NAME.npy, NAME.json and NAME.png, "
+      "the measures of all in focus.json, and the images "
       "beside each other in focus.png.",
       "focus");
   app.add_option("BAG", options.bag, "bag with truth and estimates")->required();

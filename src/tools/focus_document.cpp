@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/focus_document.hpp"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "sas_motion/math/angles.hpp"
+#include "tools/focus_steps.hpp"
 
 namespace sas_motion {
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/focus_input.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "bag/answer_topics.hpp"
 #include "ros/solution_messages.hpp"
+#include "tools/focus_steps.hpp"
 
 namespace sas_motion {
 
@@ -34,7 +33,7 @@ std::string nameOf(const std::string& topic) {
   return name.empty() ? nameBefore("settled", topic) : name;
 }
 
-/// Truth first.
+/// The topics to read, truth first.
 std::vector<std::string> chosenTopics(const std::string& file, const std::set<std::string>& there,
                                       const std::vector<std::string>& wanted) {
   if (!there.count(kTruth))
@@ -53,7 +52,7 @@ std::vector<std::string> chosenTopics(const std::string& file, const std::set<st
   return topics;
 }
 
-/// What the images of a topic are called.
+/// The name of the images of a topic.
 std::string fileName(const std::string& topic) {
   std::string name = nameOf(topic).empty() ? topic : nameOf(topic);
   std::replace(name.begin(), name.end(), '/', '_');
@@ -73,12 +72,11 @@ std::vector<RecordedTrajectory> named(const std::string& file, const std::vector
   return trajectories;
 }
 
-/// Where a fix of the truth and an odometry of the same stamp show that truth's frame has another origin than the
-/// estimates'.
+/// Shift from the truth's frame to the estimates', from a fix and an odometry of the truth with the same stamp.
 struct Origins {
   std::optional<LocalFrame> datum;
   std::map<Stamp, Geodetic> fixes;
-  bool heights = false;  // the truth has heights: the others do too
+  bool heights = false;  // whether the truth has heights
 
   Eigen::Vector3d shiftOf(const std::vector<TimedPose>& truth) const {
     if (!datum) return Eigen::Vector3d::Zero();

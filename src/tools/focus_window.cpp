@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/focus_window.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
+
+#include "tools/focus_steps.hpp"
 
 namespace sas_motion {
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStandstill = 0.01;  // m/s
 
-/// Truth where all trajectories are there.
+/// Truth over the time that all trajectories have in common.
 Trajectory commonTruth(const std::vector<RecordedTrajectory>& trajectories) {
   const auto& truth = trajectories.front().trajectory.poses();
   Stamp begin = truth.front().stamp, end = truth.back().stamp;
@@ -30,7 +30,7 @@ Trajectory commonTruth(const std::vector<RecordedTrajectory>& trajectories) {
   return Trajectory(std::move(poses));
 }
 
-/// When the window begins, so that it and the last echo are inside the bag.
+/// Begin of the window; it and the last echo are inside the bag.
 Stamp chooseBegin(const std::string& bag, const std::vector<RecordedTrajectory>& trajectories,
                   const FocusSettings& settings, double duration) {
   const auto& truth = trajectories.front().trajectory.poses();
@@ -48,8 +48,7 @@ Stamp chooseBegin(const std::string& bag, const std::vector<RecordedTrajectory>&
   if (!begin)
     throw std::runtime_error(
         fmt::format("{}: no stretch of {:.4g} s that all trajectories reach over, of {:.4g} s of truth, has poses at "
-                    "most aperture.longest_gap, {} s, apart; "
-                    "set a shorter aperture.duration or a longer gap",
+                    "most aperture.longest_gap, {} s, apart; set a shorter aperture.duration or a longer gap",
                     bag, needed, there, settings.aperture.longest_gap));
   return *begin;
 }
@@ -59,8 +58,7 @@ void requireCover(const std::string& bag, const RecordedTrajectory& t, Stamp beg
   if (const auto gap = t.trajectory.firstGap(begin, end, longest))
     throw std::runtime_error(
         fmt::format("{}: {} has no poses from {:.3f} s to {:.3f} s after the first truth, in the window from {:.3f} s "
-                    "to {:.3f} s; set another aperture.start "
-                    "or leave it out with --trajectory",
+                    "to {:.3f} s; set another aperture.start or leave it out with --trajectory",
                     bag, t.topic, secondsBetween(zero, gap->begin), secondsBetween(zero, gap->end),
                     secondsBetween(zero, begin), secondsBetween(zero, end)));
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// plan_track SCENARIO.yaml [--track waypoints.csv]: what a track could tell of a USBL array's mounting, before it is
-// sailed.
+// plan_track SCENARIO.yaml [--track waypoints.csv]: predicts how well a planned track determines a USBL array's
+// mounting.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,10 +10,9 @@
 #include <sstream>
 
 #include "sas_motion/evaluation/information.hpp"
-#include "sas_motion/math/angles.hpp"
-#include "sas_motion/systems/usbl/observability.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 #include "sas_motion/systems/usbl/simulator.hpp"
-#include "systems/usbl/ros/settings.hpp"
+#include "systems/usbl/ros/calibration_result.hpp"
 #include "tools/main_guard.hpp"
 
 namespace {
@@ -28,7 +27,7 @@ struct Options {
   double duration = 0;
 };
 
-/// Two numbers and nothing else.
+/// The two numbers of a line; nothing for other lines.
 std::optional<Vector<2>> pairOf(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
   std::istringstream stream(line);
@@ -38,7 +37,7 @@ std::optional<Vector<2>> pairOf(std::string line) {
   return pair;
 }
 
-/// Waypoints, east and north of the datum, from a file whose first line is `east,north` [m] or `latitude,longitude`
+/// Waypoints, east and north of the datum [m], from a file with the header `east,north` [m] or `latitude,longitude`
 /// [deg].
 std::vector<Vector<2>> readWaypoints(const std::string& file, const Geodetic& datum) {
   std::ifstream stream(file);
@@ -67,12 +66,12 @@ std::vector<Vector<2>> readWaypoints(const std::string& file, const Geodetic& da
   return points;
 }
 
-/// What the pings along the scenario's track would be, with the noise that it says.
+/// The pings along the scenario's track without noise, but with the variance of good noise.
 Problem planned(const Scenario& scenario, const Config& config) {
   Problem problem{Model(config.mode), config.prior, {}, Vector<kChannels>::Ones()};
   for (const auto& labelled : simulatePings(scenario, 1)) {
     Ping ping = labelled.ping;
-    ping.reading.value = Model().predict(scenario.truth, ping);  // noise itself would only blur the bound
+    ping.reading.value = Model().predict(scenario.truth, ping);
     ping.reading.variance /= scenario.stated_factor;
     ping.reading = problem.model.convert(ping.reading);
     problem.pings.push_back(ping);
@@ -95,17 +94,15 @@ bool run(const Options& options) {
     throw std::runtime_error(fmt::format("{}: gives no ping in {} s; check usbl.rate and the duration",
                                          options.scenario, scenario.duration));
   Vector<kChannels> factor;
-  for (int i = 0; i < kChannels; ++i)
-    factor(i) = MeasurementInformation(scenario.noise[static_cast<std::size_t>(i)]).factor();
+  for (int i = 0; i < kChannels; ++i) factor(i) = MeasurementInformation(scenario.noise[i]).factor();
   const Observability result = observability(problem, scenario.truth, factor);
 
   fmt::print("{}: {} pings in {} s at {} m/s, {}\n\n{:<20}{:>14}{:>14}\n", scenario.name, problem.pings.size(),
              scenario.duration, scenario.track.speed, modeName(config.mode), "", "known before", "bound after");
   for (const int i : result.unknowns) {
-    const double unit = isAngle(i) ? kRadPerDeg : 1;
-    const char* name = isAngle(i) ? "deg" : i == kRangeScale ? "-" : "m";
-    fmt::print("{:<20}{:>14.4f}{:>14.4f}\n", fmt::format("{} [{}]", unknownNames()[static_cast<std::size_t>(i)], name),
-               problem.prior.sigma(i) / unit, result.bound(i) / unit);
+    const std::string name = fmt::format("{} [{}]", unknownNames()[i], ros_side::tableUnit(i));
+    fmt::print("{:<20}{:>14.4f}{:>14.4f}\n", name, ros_side::inTableUnit(i, problem.prior.sigma(i)),
+               ros_side::inTableUnit(i, result.bound(i)));
   }
   fmt::print("\nsingular values of the pings' information over the prior's: {:.3g}\n",
              fmt::join(result.singular_values, ", "));

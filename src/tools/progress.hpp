@@ -9,11 +9,11 @@
 
 namespace sas_motion {
 
-/// A progress bar on standard error: share done, real-time factor (seconds of data a second) and time left. Silent
-/// where standard error is no terminal. Thread-safe.
+/// A progress bar on standard error, if that is a terminal: share done, real-time factor (seconds of data a second) and
+/// time left. Thread-safe.
 class Progress {
  public:
-  /// `total` in any unit; `data_seconds`, the duration of all the data, or 0 where that means nothing.
+  /// `total` has any unit; `data_seconds` is the duration of all data, or 0 without a real-time factor.
   Progress(std::string title, double total, double data_seconds);
   ~Progress();
   void advance(double amount);

@@ -15,7 +15,7 @@
 #include "campaign/ordered_tasks.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 #include "systems/registry.hpp"
-#include "tools/focus_document.hpp"
+#include "tools/focus_steps.hpp"
 #include "tools/main_guard.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 
 #include "sas_motion/imaging/backprojection.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
-#include "sas_motion/imaging/range_compression.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/random.hpp"
 

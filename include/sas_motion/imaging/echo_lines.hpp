@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <complex>
 #include <vector>
-
 #include "sas_motion/imaging/sonar.hpp"
 
 namespace sas_motion::imaging {
@@ -56,5 +55,21 @@ struct EchoLines {
   /// Place of an echo by a path of this length in its line [samples].
   double position(double path_length) const { return (path_length / sound_speed - first_delay) * sample_rate; }
 };
+
+enum class RangeFilter {
+  Matched,    ///< the chirp's conjugate: the highest ratio of signal to noise
+  Equalized,  ///< flat over the band: a sinc without the chirp's Fresnel ripple
+};
+enum class RangeWindow { Rectangular, Hamming };
+
+struct CompressionOptions {
+  RangeFilter filter = RangeFilter::Matched;
+  RangeWindow window = RangeWindow::Rectangular;  ///< over the band
+  int threads = 1;
+};
+
+/// Compresses raw echoes in range; a peak has its scatterer's amplitude, phases and delays stay, and lines become a
+/// pulse shorter. A line with a sample that is not finite becomes zero and counts as left out.
+EchoLines compressRange(const EchoLines& raw, const SonarDescription& sonar, const CompressionOptions& options);
 
 }  // namespace sas_motion::imaging

@@ -10,7 +10,6 @@
 #include "sas_motion/imaging/focus_scene.hpp"
 #include "sas_motion/imaging/point_target.hpp"
 #include "sas_motion/imaging/trajectory.hpp"
-#include "sas_motion/imaging/trajectory_error.hpp"
 
 namespace sas_motion::imaging {
 

@@ -28,12 +28,21 @@ enum class NoiseUse { Sensor, Process };
 ///   quantised      the measurement is rounded to multiples of the quantum
 ///   manoeuvre      of the process: all its noise is K times larger during spells
 struct NoiseLaw {
-  // clang-format off
   enum class Kind {
-    Gaussian, Contaminated, Burst, StudentT, Step, Ramp, Frozen, Dropout, Multipath, Correlated, Varying, Quantised,
+    Gaussian,
+    Contaminated,
+    Burst,
+    StudentT,
+    Step,
+    Ramp,
+    Frozen,
+    Dropout,
+    Multipath,
+    Correlated,
+    Varying,
+    Quantised,
     Manoeuvre
   };
-  // clang-format on
   Kind kind = Kind::Gaussian;
   double epsilon = 0;  ///< share of outliers [-]
   double K = 1;        ///< their size, or a burst's [-]

@@ -14,9 +14,8 @@
 namespace sas_motion::usbl {
 namespace {
 
-constexpr double kContradiction =
-    1 - 1e-6;  // probability that a good filter's distance from a fit stays below the threshold
-constexpr std::size_t kFewestPings = 10;  // that a start may rest on
+constexpr double kContradiction = 1 - 1e-6;  // probability that a good filter's distance from a fit is below the limit
+constexpr std::size_t kFewestPings = 10;     // of a start
 
 Gaussian<kStates> filterPart(const Unknowns& mean, const Matrix<kUnknowns>& covariance) {
   return {mean.head<kStates>(), covariance.topLeftCorner<kStates, kStates>()};
@@ -109,7 +108,7 @@ Calibrator::Report Calibrator::process(const Ping& raw) {
 
 Problem Calibrator::window(double seconds) const {
   Problem problem{model_, config_.prior, {}, Vector<kChannels>::Ones()};
-  for (int i = kStates; i < kUnknowns; ++i) problem.prior.estimated[static_cast<std::size_t>(i)] = false;
+  for (int i = kStates; i < kUnknowns; ++i) problem.prior.estimated[i] = false;
   for (const auto& ping : recent_)
     if (secondsBetween(ping.stamp, recent_.back().stamp) <= seconds) problem.pings.push_back(ping);
   return problem;
@@ -125,8 +124,8 @@ void Calibrator::startFrom(const Problem& problem, const Fit& fit) {
   started_ = true;
 }
 
-/// A filter that took an outlier for truth explains all later pings by noise and is sure of it. A fit of those pings
-/// alone is not.
+/// After an accepted outlier a filter attributes later pings to noise, with a small covariance; a fit of those pings
+/// alone shows the contradiction.
 void Calibrator::checkLockIn() {
   const Problem problem = window(config_.check_window);
   const Fit found = fit(problem, config_.fit);

@@ -14,14 +14,14 @@
 namespace sas_motion::usbl {
 namespace {
 
-constexpr double kAgree = 0.99;        // probability that two honest answers are no further apart
-constexpr double kFarFromPrior = 4;    // standard deviations
-constexpr double kNoiseMisStated = 7;  // factor on the standard deviation that is worth a word
-constexpr double kNoiseAbsurd = 30;    // and one that no sensor's driver mis-states
-constexpr double kManyOutliers = 0.3;
-constexpr double kMostOutliers = 0.5;  // of a channel: with more, its readings contradict the answer
+constexpr double kAgree = 0.99;        // probability of the agreement limit
+constexpr double kFarFromPrior = 4;    // in the prior's sigmas: gives a warning
+constexpr double kNoiseMisStated = 7;  // noise over the stated sigma: gives a warning
+constexpr double kNoiseAbsurd = 30;    // noise over the stated sigma: contradicts the answer
+constexpr double kManyOutliers = 0.3;  // of a channel: gives a warning
+constexpr double kMostOutliers = 0.5;  // of a channel: contradicts the answer
 
-/// Runs a filter over the pings; what it says of the noise before its start is what it starts with.
+/// Runs a filter over the pings; its noise before the start is that at the start.
 Estimated runFilter(const std::string& name, const std::vector<Ping>& pings, const Config& config) {
   Estimated result;
   result.name = name;
@@ -47,20 +47,15 @@ Estimated runFilter(const std::string& name, const std::vector<Ping>& pings, con
 
 Estimated runFitter(const std::string& name, const Fitter& fitter, const Problem& problem, const Config& config) {
   const Fit found = fitter(problem, config.fit);
-  Estimated result;
-  result.name = name;
-  result.x = found.x;
-  result.covariance = found.covariance;
-  result.noise.assign(problem.pings.size(), found.scale);
-  if (!found.failure.empty()) result.failure = name + ": " + found.failure;
-  return result;
+  const std::vector<Vector<kChannels>> noise(problem.pings.size(), found.scale);
+  return {name, found.x, found.covariance, noise, {}, 0, found.failure.empty() ? "" : name + ": " + found.failure};
 }
 
 bool beyondTheMounting(const Prior& prior) {
   return std::any_of(prior.estimated.begin() + kStates, prior.estimated.end(), [](bool b) { return b; });
 }
 
-/// The estimator whose word counts; estimates.size() where none has one.
+/// The index of the answer; estimates.size() where there is none.
 std::size_t answerOf(const std::vector<Estimated>& estimates, const Config& config) {
   const std::string preferred = beyondTheMounting(config.prior) ? "batch" : "hvbckf";
   for (const auto& name : {preferred, std::string("batch")})
@@ -75,7 +70,7 @@ double distanceBetween(const Estimated& a, const Estimated& b) {
   return apart.dot(covariance.llt().solve(apart));
 }
 
-/// The middle one over time of a channel's noise.
+/// The median over time of a channel's noise.
 double medianNoise(const Estimated& estimated, int channel) {
   std::vector<double> values;
   values.reserve(estimated.noise.size());
@@ -83,7 +78,7 @@ double medianNoise(const Estimated& estimated, int channel) {
   return quantile(std::move(values), 0.5);
 }
 
-/// Axes that are swapped, wrong units and wrong clocks leave most readings of a channel contradicting any answer.
+/// Swapped axes, wrong units and wrong clocks make most readings of a channel contradict any answer.
 std::string implausibility(const Comparison& comparison) {
   const auto channels = channelNames(comparison.problem.model.mode());
   for (int i = 0; i < kChannels; ++i) {
@@ -94,7 +89,7 @@ std::string implausibility(const Comparison& comparison) {
       return fmt::format(
           "the readings of {} contradict the answer ({} of {} are outliers, the noise is {:.2g} times the stated one): "
           "check axes, units and clocks",
-          channels[static_cast<std::size_t>(i)], statistics.outliers, statistics.count, statistics.noise);
+          channels[i], statistics.outliers, statistics.count, statistics.noise);
   }
   return "";
 }
@@ -105,11 +100,11 @@ std::vector<std::string> warningsOf(const Comparison& comparison) {
   std::vector<std::string> warnings;
   for (int i = 0; i < kUnknowns; ++i) {
     const double away = std::abs(comparison.best().x(i) - prior.mean(i)) / prior.sigma(i);
-    if (prior.estimated[static_cast<std::size_t>(i)] && away > kFarFromPrior)
+    if (prior.estimated[i] && away > kFarFromPrior)
       warnings.push_back(
           fmt::format("{} lies {:.0f} standard deviations from what was expected: check the axes, or give a nominal "
                       "mounting or a wider prior",
-                      unknownNames()[static_cast<std::size_t>(i)], away));
+                      unknownNames()[i], away));
   }
   for (int i = 0; i < kChannels; ++i) {
     const ChannelStatistics statistics = channelStatistics(comparison, comparison.best(), i);
@@ -117,10 +112,10 @@ std::vector<std::string> warningsOf(const Comparison& comparison) {
     if (statistics.noise > kNoiseMisStated || statistics.noise < 1 / kNoiseMisStated)
       warnings.push_back(
           fmt::format("the noise of {} is {:.2g} times the stated one: check what the driver states, and the axes",
-                      channels[static_cast<std::size_t>(i)], statistics.noise));
+                      channels[i], statistics.noise));
     if (static_cast<double>(statistics.outliers) > kManyOutliers * static_cast<double>(statistics.count))
-      warnings.push_back(fmt::format("{} of {} readings of {} are outliers", statistics.outliers, statistics.count,
-                                     channels[static_cast<std::size_t>(i)]));
+      warnings.push_back(
+          fmt::format("{} of {} readings of {} are outliers", statistics.outliers, statistics.count, channels[i]));
   }
   return warnings;
 }

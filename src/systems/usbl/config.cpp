@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/usbl/config.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,20 +7,23 @@
 
 #include "sas_motion/config/yaml_loss.hpp"
 #include "sas_motion/math/angles.hpp"
+#include "sas_motion/systems/usbl/calibrator.hpp"
+#include "sas_motion/systems/usbl/ping_builder.hpp"
 
 namespace sas_motion::usbl {
 namespace {
 
-/// A key that holds one of some names; the place of the one it holds.
-std::size_t choice(YamlSection& yaml, const std::string& key, const std::vector<std::string>& names, std::size_t now) {
-  std::string name = names[now];
+/// Reads one of the names of an enumeration's values.
+template <class Enum>
+Enum choice(YamlSection& yaml, const std::string& key, const std::vector<std::string>& names, Enum now) {
+  std::string name = names[static_cast<std::size_t>(now)];
   yaml.text(key, name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) yaml.fail(key, fmt::format("is '{}' but must be one of {}", name, fmt::join(names, ", ")));
-  return static_cast<std::size_t>(found - names.begin());
+  return static_cast<Enum>(found - names.begin());
 }
 
-/// Three numbers in some unit; each at least `lower`.
+/// Reads three numbers in `unit`, each at least `lower`.
 template <class Part>
 void readThree(YamlSection& yaml, const std::string& key, Part&& part, double unit, double lower) {
   std::vector<double> numbers{part(0) / unit, part(1) / unit, part(2) / unit};
@@ -30,7 +31,7 @@ void readThree(YamlSection& yaml, const std::string& key, Part&& part, double un
   if (*std::min_element(numbers.begin(), numbers.end()) < lower)
     yaml.fail(key,
               fmt::format("must be numbers {}", lower == kTiny ? "above 0" : fmt::format("of at least {}", lower)));
-  for (int i = 0; i < 3; ++i) part(i) = numbers[static_cast<std::size_t>(i)] * unit;
+  for (int i = 0; i < 3; ++i) part(i) = numbers[i] * unit;
 }
 
 constexpr double kAny = -1e9;
@@ -71,11 +72,9 @@ void readFilters(YamlSection yaml, Config& config) {
   config.huber = Loss(LossKind::Huber, tuning);
   yaml.number("student_t_nu", config.student_t_nu, {0.1, 1e6});
   yaml.number("correntropy_bandwidth", config.correntropy_bandwidth, {kTiny, 1e9});
-  cubature.reweighting = static_cast<Reweighting>(
-      choice(yaml, "reweighting", {"covariance", "observation"}, static_cast<std::size_t>(cubature.reweighting)));
+  cubature.reweighting = choice(yaml, "reweighting", {"covariance", "observation"}, cubature.reweighting);
   cubature.increment =
-      static_cast<NoiseIncrement>(choice(yaml, "increment", {"raw", "weighted", "pseudo", "consistent", "mixture"},
-                                         static_cast<std::size_t>(cubature.increment)));
+      choice(yaml, "increment", {"raw", "weighted", "pseudo", "consistent", "mixture"}, cubature.increment);
   yaml.integer("iterations", cubature.iterations, 1, 1000);
   yaml.number("tolerance", cubature.tolerance, {kTiny, 1});
   yaml.number("rho", cubature.rho, {0.5, 1});
@@ -88,12 +87,8 @@ void readFilters(YamlSection yaml, Config& config) {
 
 }  // namespace
 
-void readMode(YamlSection& yaml, const std::string& key, Mode& mode) {
-  mode = static_cast<Mode>(choice(yaml, key, modeNames(), static_cast<std::size_t>(mode)));
-}
-
 void readConfig(YamlSection& yaml, Config& config) {
-  readMode(yaml, "mode", config.mode);
+  config.mode = choice(yaml, "mode", modeNames(), config.mode);
   readPrior(yaml.section("prior"), config.prior);
   readEstimate(yaml.section("estimate"), config.prior);
   readFit(yaml.section("fit"), config.fit);

@@ -16,8 +16,7 @@ constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 double arccos(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
 
-/// d acos(p_axis / r) / dp. On the axis itself it has no direction; a millionth of the range stands for the distance
-/// from it.
+/// d acos(p_axis / r) / dp. Near the axis, where it has no direction, the distance from the axis is at least 1e-6 r.
 Matrix<1, 3> directionAngleGradient(const Vector<3>& p, int axis) {
   const double r = p.norm(), across = std::max(std::sqrt(std::max(0.0, r * r - p(axis) * p(axis))), 1e-6 * r);
   Vector<3> gradient = p * (p(axis) / (r * r));
@@ -44,7 +43,7 @@ Matrix<1, 3> elevationGradient(const Vector<3>& p) {
   return gradient.transpose() / across;
 }
 
-/// Rotations of the three mounting angles and their derivatives, factor by factor: C = Z X Y.
+/// The factors of the mounting rotation C = Z X Y and their derivatives.
 struct MountingFactors {
   Matrix<3> Z, X, Y, dZ, dX, dY;
 
@@ -62,7 +61,7 @@ struct MountingFactors {
   }
 };
 
-/// The transponder from the array's centre, in body axes.
+/// From the array's centre to the transponder, in body axes.
 Vector<3> transponderFromArrayBody(const Unknowns& x, const Ping& ping) {
   return ping.C_body_map * (ping.transponder_map + x.segment<3>(kTransponderX)) - x.segment<3>(kLeverX);
 }
@@ -150,8 +149,7 @@ Reading Model::convert(const Reading& angles) const {
     return result;
   }
   const double square = cx * cx + cy * cy;
-  if (!angles.has(1) || !angles.has(2) || !(square > 0) || square > 1)
-    return result;  // no direction has these two angles
+  if (!angles.has(1) || !angles.has(2) || !(square > 0) || square > 1) return result;  // no direction has these angles
   result.value(1) = std::atan2(cx, cy);
   result.variance(1) = (cy * cy * vx + cx * cx * vy) / (square * square);
   if (mode_ == Mode::Azimuth) return result;

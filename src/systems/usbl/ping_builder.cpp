@@ -16,12 +16,10 @@ bool onEarth(const Geodetic& p) {
 
 bool usable(const Reading& reading) { return reading.has(0) || reading.has(1) || reading.has(2); }
 
-/// The neighbours of a stamp, the same twice where it falls on one; nothing where there is none on either side or they
-/// are too far apart.
-template <class Map>
-std::optional<std::pair<typename Map::const_iterator, typename Map::const_iterator>> neighbours(const Map& samples,
-                                                                                                Stamp stamp,
-                                                                                                double gap) {
+/// The neighbours of a stamp, the same twice where a sample has this stamp; nothing where they are further apart than
+/// `gap` [s] or one is missing.
+template <class Map, class Iterator = typename Map::const_iterator>
+std::optional<std::pair<Iterator, Iterator>> neighbours(const Map& samples, Stamp stamp, double gap) {
   const auto after = samples.lower_bound(stamp);
   if (after == samples.end()) return std::nullopt;
   if (after->first == stamp) return std::pair(after, after);
@@ -31,7 +29,7 @@ std::optional<std::pair<typename Map::const_iterator, typename Map::const_iterat
   return std::pair(before, after);
 }
 
-/// Where a stamp lies between two, 0 to 1.
+/// The place of a stamp between two, 0 to 1.
 double share(Stamp before, Stamp stamp, Stamp after) {
   return before == after ? 0 : secondsBetween(before, stamp) / secondsBetween(before, after);
 }
@@ -67,24 +65,20 @@ void PingBuilder::addAttitude(Stamp stamp, const Matrix<3>& C_map_body) {
 void PingBuilder::addReading(Stamp stamp, std::uint32_t transponder, const Reading& reading) {
   ++readings_;
   latest_ = stamp;
-  const std::pair key(stamp, transponder);
+  const Key key(stamp, transponder);
   if (!usable(reading))
     omit(Omission::NoChannel);
-  else if ((decided_ && key <= *decided_) || !waiting_.emplace(key, Waiting{transponder, reading}).second)
+  else if ((decided_ && key <= *decided_) || !waiting_.emplace(key, reading).second)
     omit(Omission::Late);
 }
 
-std::vector<Ping> PingBuilder::take() { return build(false); }
-
-std::vector<Ping> PingBuilder::finish() { return build(true); }
-
-/// From the oldest on, until one has to wait.
+/// Builds pings from the oldest reading to the first that has to wait.
 std::vector<Ping> PingBuilder::build(bool all) {
   std::vector<Ping> pings;
   while (!waiting_.empty()) {
-    const auto& [key, waiting] = *waiting_.begin();
+    const auto& [key, reading] = *waiting_.begin();
     Omission why{};
-    const auto ping = assemble(key.first, waiting, why);
+    const auto ping = assemble(key, reading, why);
     if (!ping && !all && secondsBetween(key.first, latest_) <= options_.wait) break;
     if (ping)
       pings.push_back(*ping);
@@ -97,8 +91,9 @@ std::vector<Ping> PingBuilder::build(bool all) {
   return pings;
 }
 
-std::optional<Ping> PingBuilder::assemble(Stamp stamp, const Waiting& waiting, Omission& why) const {
-  const auto transponder = transponders_.find(waiting.transponder);
+std::optional<Ping> PingBuilder::assemble(const Key& key, const Reading& reading, Omission& why) const {
+  const Stamp stamp = key.first;
+  const auto transponder = transponders_.find(key.second);
   why = Omission::NoTransponder;
   if (transponder == transponders_.end() || !onEarth(transponder->second)) return std::nullopt;
   const auto position = referenceAt(stamp, why);
@@ -113,7 +108,7 @@ std::optional<Ping> PingBuilder::assemble(Stamp stamp, const Waiting& waiting, O
   ping.C_body_map = (C_map_body * nominal_.C_body_array).transpose();
   ping.transponder_map =
       LocalFrame(frame_->geodetic(*position)).position_enu(transponder->second) - C_map_body * nominal_.lever_arm_body;
-  ping.reading = waiting.reading;
+  ping.reading = reading;
   return ping;
 }
 
@@ -121,7 +116,7 @@ std::optional<Eigen::Quaterniond> PingBuilder::attitudeAt(Stamp stamp) const {
   const auto found = neighbours(attitudes_, stamp, options_.attitude_gap);
   if (!found) return std::nullopt;
   const auto& [before, after] = *found;
-  return before->second.slerp(share(before->first, stamp, after->first), after->second);  // the shortest way round
+  return before->second.slerp(share(before->first, stamp, after->first), after->second);
 }
 
 std::optional<Vector<3>> PingBuilder::referenceAt(Stamp stamp, Omission& why) const {
@@ -135,7 +130,7 @@ std::optional<Vector<3>> PingBuilder::referenceAt(Stamp stamp, Omission& why) co
   return *before + share(found->first->first, stamp, found->second->first) * (*after - *before);
 }
 
-/// The reference point at a fix. Its vertical is the antenna's: the axes of the two differ by a millionth.
+/// The reference point at a fix, with the antenna's vertical, which differs by a millionth.
 std::optional<Vector<3>> PingBuilder::reference(Fixes::const_iterator fix) const {
   const auto& [antenna, lever_arm] = fix->second;
   if (lever_arm.isZero(0)) return antenna;

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/usbl/scenario.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "sas_motion/config/yaml_vector.hpp"
+#include "sas_motion/systems/usbl/simulator.hpp"
 
 namespace sas_motion::usbl {
 namespace {

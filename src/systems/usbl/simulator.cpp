@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kChannelStream = 10, kSpellStream = 20, kAttitudeStream = 30, kGnssStream = 31;
 constexpr double kSteer = 0.05;  // [s] between changes of the course on the way to a waypoint
 
-/// Round a circle clockwise, or anticlockwise for a negative radius; the course is the tangent.
+/// The pose on a circle that is sailed clockwise, or anticlockwise for a negative radius.
 Pose onCircle(const Vector<2>& centre, double radius, double bearing_from_centre) {
   Pose pose;
   pose.position_map << centre(0) + std::abs(radius) * std::sin(bearing_from_centre),
@@ -21,8 +21,8 @@ Pose onCircle(const Vector<2>& centre, double radius, double bearing_from_centre
   return pose;
 }
 
-/// Two circles that touch in the centre, sailed in turns: the first clockwise with its centre to starboard of the
-/// crossing's heading.
+/// The pose on two circles that touch in the centre, in turns; the first is sailed clockwise, to starboard of the
+/// heading.
 Pose onFigureEight(const Track& track, double distance) {
   const double round = 2 * kPi * track.radius, along = std::fmod(distance, 2 * round);
   const double side = along < round ? 1 : -1, angle = std::fmod(along, round) / track.radius;
@@ -45,8 +45,7 @@ Vessel::Vessel(const Scenario& scenario) : scenario_(scenario) {
   pose_.attitude.heading = std::atan2(leg(0), leg(1));
 }
 
-/// Steers at each moment towards the next waypoint, as fast as the turn rate allows; a waypoint is reached at the
-/// radius of a turn.
+/// Steers towards the next waypoint within the turn rate; a waypoint is reached at 1.5 times the radius of a turn.
 void Vessel::followWaypoints(double time) {
   const Track& track = scenario_.track;
   const double reached = 1.5 * track.speed / track.turn_rate;
@@ -68,15 +67,13 @@ void Vessel::followWaypoints(double time) {
 Pose Vessel::at(double time) {
   const Track& track = scenario_.track;
   Pose pose;
-  switch (track.kind) {
-    case Track::Kind::Circle:
-      pose = onCircle(track.centre, track.radius, track.heading + track.speed * time / track.radius);
-      break;
-    case Track::Kind::FigureEight: pose = onFigureEight(track, track.speed * time); break;
-    case Track::Kind::Waypoints:
-      followWaypoints(time);
-      pose = pose_;
-      break;
+  if (track.kind == Track::Kind::Circle) {
+    pose = onCircle(track.centre, track.radius, track.heading + track.speed * time / track.radius);
+  } else if (track.kind == Track::Kind::FigureEight) {
+    pose = onFigureEight(track, track.speed * time);
+  } else {
+    followWaypoints(time);
+    pose = pose_;
   }
   pose.attitude.roll = scenario_.wave_roll * std::sin(2 * kPi * time / scenario_.wave_period);
   pose.attitude.pitch = scenario_.wave_pitch * std::sin(2 * kPi * time / (0.8 * scenario_.wave_period) + 0.7);
@@ -104,9 +101,9 @@ std::optional<LabelledPing> Simulator::ping(double time, const Pose& truth) {
   ping.reading.variance = scenario_.stated_factor * sigma.cwiseAbs2();
   bool heard = false;
   for (int i = 0; i < kChannels; ++i) {
-    const NoiseSample sample = channels_[static_cast<std::size_t>(i)].draw(time);
+    const NoiseSample sample = channels_[i].draw(time);
     ping.reading.value(i) += sigma(i) * sample.value;
-    result.outlier[static_cast<std::size_t>(i)] = sample.outlier;
+    result.outlier[i] = sample.outlier;
     result.variance(i) = sample.variance;
     if (sample.missing) ping.reading.variance(i) = std::numeric_limits<double>::quiet_NaN();
     heard |= !sample.missing;

@@ -3,7 +3,7 @@
 #include "systems/usbl/campaign.hpp"
 
 #include "campaign/suites.hpp"
-#include "sas_motion/systems/usbl/observability.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 
 namespace sas_motion {
 namespace {

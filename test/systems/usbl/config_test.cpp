@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/usbl/config.hpp"
-
 #include "sas_motion/math/angles.hpp"
+#include "sas_motion/systems/usbl/calibrator.hpp"
+#include "sas_motion/systems/usbl/ping_builder.hpp"
 #include "support.hpp"
 
 namespace sas_motion::usbl {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/usbl/robust_fit.hpp"
-
-#include "sas_motion/systems/usbl/observability.hpp"
+#include "sas_motion/systems/usbl/fitter.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 #include "sas_motion/systems/usbl/simulator.hpp"
 #include "support.hpp"
 

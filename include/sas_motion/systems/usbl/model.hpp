@@ -10,26 +10,27 @@
 
 #include "sas_motion/math/stamp.hpp"
 #include "sas_motion/math/types.hpp"
+#include "sas_motion/navigation/attitude.hpp"
 
-/// A USBL array on a vessel that hears a surveyed transponder: how the array is turned and where it sits. [ZhangTao]
-/// Body axes are starboard, forward, up; the array's are the same where it is mounted without error.
+/// Mounting angles and lever arm of a USBL array on a vessel, from readings of a surveyed transponder. [ZhangTao]
+/// Body axes are starboard, forward, up; an array that is mounted without error has the same axes.
 namespace sas_motion::usbl {
 
 constexpr int kStates = 6;     ///< mounting angles, then the lever arm
-constexpr int kUnknowns = 10;  ///< and what may be unknown beside them
+constexpr int kUnknowns = 10;  ///< the states and further parameters that may be estimated
 constexpr int kChannels = 3;   ///< of a reading
 
 enum Unknown {
   kMountingX,     ///< rotation about starboard, as pitch [rad]
   kMountingY,     ///< about forward, as roll [rad]
   kMountingZ,     ///< about up, clockwise as heading [rad]
-  kLeverX,        ///< the array's acoustic centre from the reference point: to starboard [m]
+  kLeverX,        ///< from the reference point to the array's acoustic centre: to starboard [m]
   kLeverY,        ///< forward [m]
   kLeverZ,        ///< up [m]
-  kTransponderX,  ///< error of the surveyed transponder: true less surveyed; east [m]
+  kTransponderX,  ///< true less surveyed transponder position: east [m]
   kTransponderY,  ///< north [m]
   kTransponderZ,  ///< up [m]
-  kRangeScale     ///< measured range over the true one, less 1: sound speed assumed over the true one [-]
+  kRangeScale     ///< measured over true range, less 1; from the error of the sound speed [-]
 };
 
 using State = Vector<kStates>;
@@ -39,9 +40,9 @@ using Unknowns = Vector<kUnknowns>;
 const std::array<std::string, kUnknowns>& unknownNames();
 inline bool isAngle(int unknown) { return unknown <= kMountingZ; }
 
-/// What of a transponder's direction a reading holds beside the slant range.
+/// Components of a transponder's direction in a reading, beside the slant range.
 enum class Mode {
-  DirectionAngles,   ///< angles to the array's starboard and forward axes: what an orthogonal array measures
+  DirectionAngles,   ///< angles to the array's starboard and forward axes, as an orthogonal array measures
   DirectionCosines,  ///< their cosines
   AzimuthElevation,  ///< clockwise from forward; up
   Azimuth            ///< no elevation
@@ -49,7 +50,7 @@ enum class Mode {
 
 /// direction_angles, direction_cosines, azimuth_elevation, azimuth.
 const std::vector<std::string>& modeNames();
-/// Throws std::invalid_argument that lists the names where `name` is none of them.
+/// Throws std::invalid_argument that lists the names for an unknown `name`.
 Mode modeFromName(const std::string& name);
 const std::string& modeName(Mode mode);
 
@@ -63,27 +64,26 @@ struct Reading {
   }
 };
 
-/// One reply of the transponder, and where the vessel was.
+/// One reply of the transponder and the vessel's pose.
 struct Ping {
   Stamp stamp = 0;
-  Matrix<3> C_body_map = Matrix<3>::Identity();  ///< v_body = C v_map
-  Vector<3> transponder_map =
-      Vector<3>::Zero();  ///< the surveyed transponder from the reference point; east, north, up [m]
-  Reading reading;        ///< of direction angles
+  Matrix<3> C_body_map = Matrix<3>::Identity();   ///< v_body = C v_map
+  Vector<3> transponder_map = Vector<3>::Zero();  ///< from the reference point to the survey; east, north, up [m]
+  Reading reading;                                ///< of direction angles
 };
 
-/// The measurement model h: one for filters, smoothers and simulation. [ZhangTao, eq 6 to 9]
+/// The measurement model h of filters, smoothers and simulation. [ZhangTao, eq 6 to 9]
 class Model {
  public:
   explicit Model(Mode mode = Mode::DirectionAngles) : mode_(mode) {}
 
-  /// h: range and direction in this mode. Below the surface of the array's plane the direction angles tell all.
+  /// h: range and direction in this mode.
   Vector<kChannels> predict(const Unknowns& x, const Ping& ping) const;
   Vector<kChannels> predict(const State& x, const Ping& ping) const { return predict(widened(x), ping); }
   /// dh/dx.
   Matrix<kChannels, kUnknowns> jacobian(const Unknowns& x, const Ping& ping) const;
-  /// Direction angles in this mode, with their variances to first order; a channel that the mode lacks, or that no
-  /// direction can have, is absent. The transponder lies below the array.
+  /// Converts direction angles to this mode, variances to first order, for a transponder below the array. Channels that
+  /// the mode lacks and impossible directions become absent.
   Reading convert(const Reading& direction_angles) const;
   /// y - x with angles wrapped.
   Vector<kChannels> difference(const Vector<kChannels>& y, const Vector<kChannels>& x) const;
@@ -97,7 +97,27 @@ class Model {
 
 /// The array's rotation: v_body = C v_array.
 Matrix<3> mountingRotation(const Vector<3>& angles);
-/// The transponder from the array, in the array's axes [m].
+/// From the array to the transponder, in the array's axes [m].
 Vector<3> transponderInArray(const Unknowns& x, const Ping& ping);
+
+/// Rotation and place of an array on the vessel; the axes of both are starboard, forward, up.
+struct Mounting {
+  Matrix<3> C_body_array = Matrix<3>::Identity();  ///< v_body = C v_array
+  Vector<3> lever_arm_body = Vector<3>::Zero();    ///< from the reference point to the acoustic centre [m]
+};
+
+/// A nominal mounting corrected by a state, whose body axes are those of the nominal array.
+inline Mounting corrected(const Mounting& nominal, const State& correction) {
+  return {nominal.C_body_array * mountingRotation(correction.head<3>()),
+          nominal.lever_arm_body + nominal.C_body_array * correction.tail<3>()};
+}
+
+/// The state that corrects a nominal mounting to another.
+inline State correctionTo(const Mounting& mounting, const Mounting& nominal) {
+  const Attitude angles = attitudeOf(nominal.C_body_array.transpose() * mounting.C_body_array);
+  return (State() << angles.pitch, angles.roll, angles.heading,
+          nominal.C_body_array.transpose() * (mounting.lever_arm_body - nominal.lever_arm_body))
+      .finished();
+}
 
 }  // namespace sas_motion::usbl

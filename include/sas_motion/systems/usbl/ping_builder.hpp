@@ -11,69 +11,67 @@
 #include <utility>
 #include <vector>
 
+#include "sas_motion/config/yaml_section.hpp"
 #include "sas_motion/navigation/local_frame.hpp"
-#include "sas_motion/systems/usbl/mounting.hpp"
+#include "sas_motion/systems/usbl/model.hpp"
 
 namespace sas_motion::usbl {
 
 struct PingBuilderOptions {
-  double attitude_gap = 0.5;  ///< attitudes further apart are not interpolated between [s]
-  double position_gap = 1.5;  ///< nor positions [s]
-  double wait = 10;           ///< a ping waits for late poses until a ping this much later has come [s]
+  double attitude_gap = 0.5;  ///< longest gap between attitudes that is interpolated over [s]
+  double position_gap = 1.5;  ///< longest gap between positions that is interpolated over [s]
+  double wait = 10;           ///< a ping waits for late poses until a ping this much later arrives [s]
 };
+/// Reads the section pings. Throws ConfigError.
+void readConfig(YamlSection yaml, PingBuilderOptions& options);
 
-/// Why a reading gave no ping.
+/// The reason why a reading gave no ping.
 enum class Omission { NoChannel, NoTransponder, BeforeFirstFix, PositionGap, AttitudeGap, Late };
 constexpr int kOmissions = 6;
 /// In plain words: "without a usable channel", ...
 const std::string& omissionText(Omission omission);
 
-/// Makes pings of what the vessel's sensors say: the pose at each reception, interpolated between its neighbours, and
-/// the surveyed transponder from there. Poses and readings may come in any order; pings leave in the order of their
-/// stamps.
-///
-/// The reference point is found at the antenna's stamps, where the attitude is interpolated to take its lever arm off,
-/// and then interpolated itself: a mast's antenna swings with the waves, the reference point hardly does.
+/// Makes pings from the vessel's sensors: interpolates the pose at each reception. Poses and readings may come in any
+/// order; pings leave in the order of their stamps. The reference point is computed at the GNSS stamps, with
+/// interpolated attitude for the antenna's lever arm, and interpolated afterwards, since it swings less than the
+/// antenna.
 class PingBuilder {
  public:
   explicit PingBuilder(const PingBuilderOptions& options) : options_(options) {}
 
-  /// The nominal mounting takes the body's place in the pings made from now on: what a calibration finds of them is a
-  /// correction of it.
+  /// Replaces the body by the nominal array in later pings, so that a calibration gives a correction of the mounting.
   void setNominal(const Mounting& nominal) { nominal_ = nominal; }
-  /// A surveyed transponder; the last word counts.
+  /// Sets a surveyed transponder's position.
   void addTransponder(std::uint32_t id, const Geodetic& position) { transponders_[id] = position; }
-  /// Of the GNSS antenna, which is `lever_arm_body` from the reference point; starboard, forward, up [m].
+  /// Adds a position of the GNSS antenna; `lever_arm_body` is its place from the reference point [m].
   void addPosition(Stamp stamp, const Geodetic& antenna, const Vector<3>& lever_arm_body);
-  /// v_map = C v_body, the map's axes being east, north, up.
+  /// v_map = C v_body; the map's axes are east, north, up.
   void addAttitude(Stamp stamp, const Matrix<3>& C_map_body);
-  /// Direction angles by the transponder with this id.
+  /// Adds a reading of direction angles to the transponder with this id.
   void addReading(Stamp stamp, std::uint32_t transponder, const Reading& reading);
 
-  /// The pings that are ready.
-  std::vector<Ping> take();
-  /// The pings that can still be made of what is there: the data end here.
-  std::vector<Ping> finish();
+  /// The pings that need not wait.
+  std::vector<Ping> take() { return build(false); }
+  /// All further pings, at the end of the data.
+  std::vector<Ping> finish() { return build(true); }
 
   std::uint64_t omitted(Omission omission) const { return omitted_[static_cast<std::size_t>(omission)]; }
-  std::uint64_t readings() const { return readings_; }  ///< that came
+  std::uint64_t readings() const { return readings_; }
   const Mounting& nominal() const { return nominal_; }
+  const std::map<std::uint32_t, Geodetic>& transponders() const { return transponders_; }
 
  private:
   struct Fix {
     Vector<3> antenna_frame;  // in frame_
     Vector<3> lever_arm_body;
   };
-  struct Waiting {
-    std::uint32_t transponder;
-    Reading reading;
-  };
+  using Key = std::pair<Stamp, std::uint32_t>;  // stamp and transponder of a reading
   using Attitudes = std::map<Stamp, Eigen::Quaterniond>;
   using Fixes = std::map<Stamp, Fix>;
 
   std::vector<Ping> build(bool all);
-  /// A ping, or why there is none.
-  std::optional<Ping> assemble(Stamp stamp, const Waiting& waiting, Omission& why) const;
+  /// A ping, or the reason for none.
+  std::optional<Ping> assemble(const Key& key, const Reading& reading, Omission& why) const;
   std::optional<Eigen::Quaterniond> attitudeAt(Stamp stamp) const;
   std::optional<Vector<3>> referenceAt(Stamp stamp, Omission& why) const;
   std::optional<Vector<3>> reference(Fixes::const_iterator fix) const;
@@ -86,10 +84,10 @@ class PingBuilder {
   std::map<std::uint32_t, Geodetic> transponders_;
   Attitudes attitudes_;
   Fixes fixes_;
-  std::map<std::pair<Stamp, std::uint32_t>, Waiting> waiting_;
-  std::optional<std::pair<Stamp, std::uint32_t>> decided_;  // the last that was
+  std::map<Key, Reading> waiting_;
+  std::optional<Key> decided_;  // the last reading that left waiting_
   std::optional<Stamp> first_fix_;
-  Stamp latest_ = 0;  // stamp of the reading that came last
+  Stamp latest_ = 0;  // stamp of the reading that arrived last
   std::array<std::uint64_t, kOmissions> omitted_{};
   std::uint64_t readings_ = 0;
 };

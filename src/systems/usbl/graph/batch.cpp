@@ -9,7 +9,6 @@
 #include <gtsam/nonlinear/PriorFactor.h>
 
 #include "graph/levenberg_marquardt.hpp"
-#include "systems/usbl/graph/factors.hpp"
 
 namespace sas_motion::usbl {
 namespace {
@@ -23,7 +22,7 @@ Matrix<kUnknowns> chart(const Unknowns& x) {
   return result;
 }
 
-/// What a solver starts from and returns to where it fails.
+/// The start of a solver, and its result where it fails.
 Fit beginning(const Problem& problem, const Unknowns& start) {
   Fit fit;
   fit.x = start;

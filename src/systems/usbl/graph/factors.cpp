@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "systems/usbl/graph/factors.hpp"
-
 #include <gtsam/geometry/Point3.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "graph/loss_estimator.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/navigation/attitude.hpp"
+#include "systems/usbl/graph/batch.hpp"
 
 namespace sas_motion::usbl {
 

@@ -23,7 +23,7 @@ std::string list(const Numbers& numbers) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-/// In the table's units.
+/// A list in the table's units.
 std::string part(const Unknowns& values, int first, int count) {
   std::vector<double> numbers;
   for (int i = first; i < first + count; ++i) numbers.push_back(inTableUnit(i, values(i)));
@@ -102,7 +102,7 @@ std::string residuals(const CalibrationResult& result) {
   for (int i = 0; i < kChannels; ++i) {
     const ChannelStatistics s = channelStatistics(result.comparison, result.comparison.best(), i);
     text += fmt::format("  {}: {{readings: {}, outliers: {}, mean: {:.6g}, rms: {:.6g}, noise_over_stated: {:.6g}}}\n",
-                        channels[static_cast<std::size_t>(i)], s.count, s.outliers, s.mean, s.rms, s.noise);
+                        channels[i], s.count, s.outliers, s.mean, s.rms, s.noise);
   }
   return text + fmt::format("outliers_by_minute: [{}]   # pings\n", fmt::join(result.outliersByMinute(), ", "));
 }
@@ -111,14 +111,13 @@ std::string observability(const Observability& o) {
   std::vector<std::string> names;
   std::vector<double> bound;
   for (const int i : o.unknowns) {
-    names.push_back(unknownNames()[static_cast<std::size_t>(i)]);
+    names.push_back(unknownNames()[i]);
     bound.push_back(inTableUnit(i, o.bound(i)));
   }
   return fmt::format(
       "observability:\n  unknowns: [{}]\n  bound: {}   # Cramer-Rao bound [deg, m, -]\n"
       "  singular_values: {}   # of the pings' information over the prior's\n  weak_direction: {}\n  weak_sigma: {}   "
-      "# what the pings alone know of it, over "
-      "what the prior does\n",
+      "# what the pings alone know of it, over what the prior does\n",
       fmt::join(names, ", "), list(bound), list(o.singular_values), list(o.weak_direction),
       std::isfinite(o.weak_sigma) ? fmt::format("{:.6g}", o.weak_sigma) : ".inf");
 }

@@ -10,6 +10,75 @@ namespace sas_motion::ros_side {
 
 using namespace usbl;
 
+namespace {
+
+constexpr int kName = 16, kColumn = 20;
+
+std::string row(const std::string& name, const std::vector<std::string>& cells) {
+  std::string text = fmt::format("{:<{}}", name, kName);
+  for (const auto& cell : cells) text += fmt::format("{:>{}}", cell, kColumn);
+  return text + "\n";
+}
+
+std::string nameOf(int unknown) { return fmt::format("{} [{}]", unknownNames()[unknown], tableUnit(unknown)); }
+
+std::vector<std::string> names(const Comparison& comparison) {
+  std::vector<std::string> all;
+  for (const auto& estimated : comparison.estimates) all.push_back(estimated.name);
+  return all;
+}
+
+std::string estimates(const CalibrationResult& result) {
+  const Comparison& comparison = result.comparison;
+  auto header = names(comparison);
+  header.emplace_back("bound");
+  std::string text = row("", header);
+  for (const int i : comparison.observability.unknowns) {
+    std::vector<std::string> cells;
+    for (const auto& e : comparison.estimates) {
+      const bool has = e.failure.empty() && e.sigma()(i) > 0;
+      cells.push_back(has ? fmt::format("{:.4f} ± {:.4f}", inTableUnit(i, e.x(i)), inTableUnit(i, e.sigma()(i))) : "-");
+    }
+    cells.push_back(fmt::format("{:.4f}", inTableUnit(i, comparison.observability.bound(i))));
+    text += row(nameOf(i), cells);
+  }
+  return text;
+}
+
+std::string errors(const CalibrationResult& result) {
+  const auto truth = result.truth();
+  if (!truth) return "";
+  std::string text = "\nerror against truth, and in standard deviations\n" + row("", names(result.comparison));
+  for (int i = 0; i < kStates; ++i) {
+    std::vector<std::string> cells;
+    for (const auto& e : result.comparison.estimates) {
+      const double error = e.x(i) - (*truth)(i);
+      cells.push_back(e.failure.empty() ? fmt::format("{:.4f} ({:+.1f})", inTableUnit(i, error), error / e.sigma()(i))
+                                        : "-");
+    }
+    text += row(nameOf(i), cells);
+  }
+  return text;
+}
+
+std::string residuals(const CalibrationResult& result) {
+  const Comparison& comparison = result.comparison;
+  const auto channels = channelNames(comparison.problem.model.mode());
+  std::string text =
+      fmt::format("\nresiduals of {}; mean and rms without outliers [m, deg]\n", comparison.best().name) +
+      row("", {"readings", "outliers", "mean", "rms", "noise over stated"});
+  for (int i = 0; i < kChannels; ++i) {
+    const ChannelStatistics s = channelStatistics(comparison, comparison.best(), i);
+    const double unit = i == 0 || comparison.problem.model.mode() == Mode::DirectionCosines ? 1 : kRadPerDeg;
+    text += row(channels[i],
+                {fmt::format("{}", s.count), fmt::format("{}", s.outliers), fmt::format("{:.4f}", s.mean / unit),
+                 fmt::format("{:.4f}", s.rms / unit), fmt::format("{:.3f}", s.noise)});
+  }
+  return text + fmt::format("pings with outliers, minute by minute: {}\n", fmt::join(result.outliersByMinute(), " "));
+}
+
+}  // namespace
+
 double inTableUnit(int unknown, double value) { return isAngle(unknown) ? value / kRadPerDeg : value; }
 
 const char* tableUnit(int unknown) { return isAngle(unknown) ? "deg" : unknown == kRangeScale ? "-" : "m"; }
@@ -42,6 +111,25 @@ std::string CalibrationResult::conclusion() const {
   const bool alone = comparison.best().name == "batch";
   return fmt::format("observable: {}{}", observability.verdict,
                      alone ? "" : fmt::format("; {} and batch agree", comparison.best().name));
+}
+
+std::string calibrationTable(const CalibrationResult& result) {
+  const Comparison& comparison = result.comparison;
+  std::string text =
+      fmt::format("{}: {} pings of {} measurements of {}, {}{}\n\n", result.bag, comparison.problem.pings.size(),
+                  result.recording.readings, result.arrayFrame(), modeName(comparison.problem.model.mode()),
+                  result.recording.has_nominal ? "; corrections of the nominal mounting" : "");
+  text += estimates(result) + errors(result) + residuals(result);
+  for (const auto* counts : {&result.recording.left_out, &result.recording.refused})
+    for (const auto& [reason, number] : *counts) text += fmt::format("left out: {} {}\n", number, reason);
+  for (const auto& e : comparison.estimates) {
+    if (e.lock_ins > 0) text += fmt::format("{}: had locked in and started anew, times: {}\n", e.name, e.lock_ins);
+    if (!e.failure.empty()) text += fmt::format("failed: {}\n", e.failure);
+  }
+  text += fmt::format("singular values of the pings' information over the prior's: {:.3g}\n",
+                      fmt::join(comparison.observability.singular_values, ", "));
+  for (const auto& warning : comparison.warnings) text += fmt::format("mind: {}\n", warning);
+  return text + result.conclusion() + "\n";
 }
 
 }  // namespace sas_motion::ros_side

@@ -48,22 +48,10 @@ CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::Nod
   beginAnew();
 
   listener_ = std::make_unique<tf2_ros::TransformListener>(transforms_, node_);
-  const auto transport = ros::TransportHints().tcpNoDelay();
-  using Fix = sensor_msgs::NavSatFix::ConstPtr;
-  subscribers_.push_back(node_.subscribe<sensor_msgs::NavSatFix>(
-      settings_.fix_topic, kQueue,
-      [this](const Fix& m) { receive(m->header.frame_id, [this, m] { ingest_->takeFix(*m); }); }, {}, transport));
-  subscribers_.push_back(node_.subscribe<sensor_msgs::NavSatFix>(
-      settings_.transponder_topic, kQueue,
-      [this](const Fix& m) { receive("", [this, m] { ingest_->takeTransponder(*m); }); }, {}, transport));
-  subscribers_.push_back(node_.subscribe<sensor_msgs::Imu>(
-      settings_.imu_topic, kQueue,
-      [this](const sensor_msgs::Imu::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); },
-      {}, transport));
-  subscribers_.push_back(node_.subscribe<UsblMeasurement>(
-      settings_.measurement_topic, kQueue,
-      [this](const UsblMeasurement::ConstPtr& m) { receive(m->header.frame_id, [this, m] { ingest_->take(*m); }); }, {},
-      transport));
+  subscribe<sensor_msgs::NavSatFix>(settings_.fix_topic, &UsblIngest::takeFix);
+  subscribe<sensor_msgs::NavSatFix>(settings_.transponder_topic, &UsblIngest::takeTransponder, false);
+  subscribe<sensor_msgs::Imu>(settings_.imu_topic, &UsblIngest::take);
+  subscribe<UsblMeasurement>(settings_.measurement_topic, &UsblIngest::take);
 
   ros::NodeHandle services(own);
   services_.push_back(services.advertiseService("save", &CalibrationServer::onSave, this));
@@ -73,11 +61,19 @@ CalibrationServer::CalibrationServer(const ros::NodeHandle& node, const ros::Nod
                                                 [this](const ros::WallTimerEvent&) { updater_->force_update(); });
 }
 
+template <class Message>
+void CalibrationServer::subscribe(const std::string& topic, void (UsblIngest::*take)(const Message&), bool has_frame) {
+  const auto handler = [=](const typename Message::ConstPtr& m) {
+    receive(has_frame ? m->header.frame_id : "", [=] { (ingest_.get()->*take)(*m); });
+  };
+  subscribers_.push_back(node_.subscribe<Message>(topic, kQueue, handler, {}, ros::TransportHints().tcpNoDelay()));
+}
+
 void CalibrationServer::beginAnew() {
   std::map<std::uint32_t, Geodetic> surveyed;
-  if (ingest_) surveyed = ingest_->transponders();
+  if (ingest_) surveyed = ingest_->builder().transponders();
   ingest_ = std::make_unique<UsblIngest>(settings_, transforms_);
-  for (const auto& [id, position] : surveyed) ingest_->setTransponder(id, position);  // latched: it is told once
+  for (const auto& [id, position] : surveyed) ingest_->builder().addTransponder(id, position);  // latched: sent once
   if (lanes_.empty())
     for (const auto& name : names_)
       lanes_.push_back({name, usbl::Calibrator(name, settings_.calibration),
@@ -104,7 +100,7 @@ void CalibrationServer::receive(const std::string& frame, std::function<void()> 
   for (const auto& ping : ingest_->builder().take()) process(ping);
 }
 
-/// The array usually has no transform, as nobody knows it yet; where it has a nominal one, that must not be missed.
+/// The array usually has no transform, but a nominal one must not be missed.
 bool CalibrationServer::transformsReady() {
   if ((ros::WallTime::now() - first_message_).toSec() > transform_wait_) return true;
   return frames_.size() >= 3 && std::all_of(frames_.begin(), frames_.end(), [&](const std::string& frame) {
@@ -164,9 +160,8 @@ void CalibrationServer::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
     status.summary(DiagnosticStatus::OK, "within the tolerance: ~save writes the calibration");
   const usbl::State sigma = first.belief().covariance.diagonal().cwiseSqrt();
   for (int i = 0; i < usbl::kStates; ++i) {
-    const double unit = usbl::isAngle(i) ? kRadPerDeg : 1;
-    status.addf(usbl::unknownNames()[static_cast<std::size_t>(i)] + (usbl::isAngle(i) ? " [deg]" : " [m]"),
-                "%.4f +- %.4f", first.belief().mean(i) / unit, 3 * sigma(i) / unit);
+    status.addf(usbl::unknownNames()[i] + fmt::format(" [{}]", tableUnit(i)), "%.4f +- %.4f",
+                inTableUnit(i, first.belief().mean(i)), inTableUnit(i, 3 * sigma(i)));
   }
   status.addf("pings", "%zu", observability_.pings);
   status.addf("measurements", "%lu", ingest_->builder().readings());

@@ -17,21 +17,20 @@
 #include "ros/serving.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/systems/usbl/calibrator.hpp"
-#include "sas_motion/systems/usbl/observability.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 #include "systems/usbl/ros/ingest.hpp"
 
 namespace sas_motion::ros_side {
 
-/// The largest uncertainty that a calibration may have to be good enough: of three standard deviations.
+/// Limits of three standard deviations of a calibration that is good enough.
 struct CalibrationTolerance {
   double angle = 0.1 * kRadPerDeg;  ///< [rad]
   double lever_arm = 0.1;           ///< [m]
 };
 
-/// A USBL calibration while the vessel sails: fed with GNSS, attitude, transponder and USBL messages it publishes after
-/// every ping, for each filter NAME, NAME/calibration and NAME/update, and says on /diagnostics whether the track shows
-/// every unknown and whether the answer is good enough. ~save writes what calibrate_usbl would of the same messages;
-/// ~reset begins anew.
+/// A live USBL calibration from GNSS, attitude, transponder and USBL messages. After every ping it publishes
+/// NAME/calibration and NAME/update for each filter NAME; /diagnostics reports observability and tolerance. ~save
+/// writes the same as calibrate_usbl with the same messages; ~reset begins anew.
 class CalibrationServer {
  public:
   /// Throws ConfigError or std::invalid_argument where a parameter is wrong.
@@ -45,7 +44,10 @@ class CalibrationServer {
   };
 
   void beginAnew();
-  /// Runs a message's handler, or keeps it until the transforms that it may need have had time to come.
+  /// `has_frame` tells whether the messages' frame_id is a frame.
+  template <class Message>
+  void subscribe(const std::string& topic, void (UsblIngest::*take)(const Message&), bool has_frame = true);
+  /// Runs a message's handler, at first after a wait for transforms.
   void receive(const std::string& frame, std::function<void()> handler);
   bool transformsReady();
   void process(const usbl::Ping& ping);
@@ -60,17 +62,17 @@ class CalibrationServer {
   CalibrationTolerance tolerance_;
   std::string output_ = "calibration.yaml";
   double transform_wait_ = 2;  // [s, wall]
-  int most_pings_ = 50'000;    // that are kept for ~save
+  int most_pings_ = 50'000;    // kept for ~save
   tf2_ros::Buffer transforms_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   std::unique_ptr<UsblIngest> ingest_;
   std::vector<std::string> names_;
   std::vector<Lane> lanes_;
   std::vector<usbl::Ping> pings_;
-  Matrix<usbl::kUnknowns> information_;  // of all pings, each where the first filter stood
+  Matrix<usbl::kUnknowns> information_;  // of all pings, each linearised at the first filter's mean
   usbl::Observability observability_;
   std::deque<std::function<void()>> waiting_;
-  std::vector<std::string> frames_;  // of the messages that wait
+  std::vector<std::string> frames_;  // of the waiting messages
   ros::WallTime first_message_;
   bool ready_ = false;
   std::vector<ros::Subscriber> subscribers_;

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-/// So many digits that a plot loses nothing.
+/// Rounds to six digits.
 double shortened(double value) {
   if (value == 0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
@@ -31,15 +31,14 @@ json traceOf(const Estimated& e, Stamp begin) {
   for (const auto& point : e.trace) {
     trace["t"].push_back(secondsBetween(begin, point.stamp));
     for (int i = 0; i < kStates; ++i) {
-      trace["mean"][unknownNames()[static_cast<std::size_t>(i)]].push_back(shortened(inTableUnit(i, point.mean(i))));
-      trace["sigma"][unknownNames()[static_cast<std::size_t>(i)]].push_back(shortened(inTableUnit(i, point.sigma(i))));
+      trace["mean"][unknownNames()[i]].push_back(shortened(inTableUnit(i, point.mean(i))));
+      trace["sigma"][unknownNames()[i]].push_back(shortened(inTableUnit(i, point.sigma(i))));
     }
   }
   return trace;
 }
 
-/// Over time, channel by channel: residuals over the estimated noise, that noise over the stated one, and the
-/// simulator's labels, where there are some.
+/// Residuals over the estimated noise, that noise over the stated one and the simulator's labels, by channel over time.
 json residualsOf(const CalibrationResult& result, const Estimated& e) {
   const Comparison& comparison = result.comparison;
   const auto channels = channelNames(comparison.problem.model.mode());
@@ -49,12 +48,11 @@ json residualsOf(const CalibrationResult& result, const Estimated& e) {
     const auto label = result.recording.outlier.find(comparison.problem.pings[i].stamp);
     for (int c = 0; c < kChannels; ++c) {
       const bool has = comparison.problem.pings[i].reading.has(c);
-      auto& channel = columns[channels[static_cast<std::size_t>(c)]];
+      auto& channel = columns[channels[c]];
       channel["residual"].push_back(has ? json(shortened(whitened(c))) : json());
       channel["noise"].push_back(shortened(e.noise[i](c)));
       if (!result.recording.outlier.empty())
-        channel["outlier"].push_back(label != result.recording.outlier.end() &&
-                                     label->second[static_cast<std::size_t>(c)]);
+        channel["outlier"].push_back(label != result.recording.outlier.end() && label->second[c]);
     }
   }
   return columns;
@@ -69,7 +67,7 @@ json estimatorOf(const CalibrationResult& result, const Estimated& e, Stamp begi
           {"channels", residualsOf(result, e)}};
 }
 
-/// The vessel from the transponder at each ping.
+/// Position of the vessel from the transponder at each ping.
 json pingsOf(const CalibrationResult& result, Stamp begin) {
   json pings;
   for (const auto& ping : result.comparison.problem.pings) {

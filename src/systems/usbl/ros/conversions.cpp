@@ -17,6 +17,30 @@ double variance(double stated, double sigma) {
 
 }  // namespace
 
+UsblSettings UsblSettings::fromFile(const std::string& file) {
+  UsblSettings settings;
+  if (file.empty()) return settings;
+  auto yaml = YamlSection::fromFile(file);
+  usbl::readConfig(yaml, settings.calibration);
+  usbl::readConfig(yaml.section("pings"), settings.pings);
+  auto readings = yaml.section("readings");
+  readings.number("range_sigma", settings.range_sigma, {0, 1e4});
+  readings.angle("direction_sigma_deg", settings.direction_sigma, {0, 90});
+  readings.finish();
+  auto topics = yaml.section("topics");
+  topics.text("fix", settings.fix_topic);
+  topics.text("imu", settings.imu_topic);
+  topics.text("measurement", settings.measurement_topic);
+  topics.text("transponder", settings.transponder_topic);
+  topics.finish();
+  auto frames = yaml.section("frames");
+  frames.text("base", settings.base_frame);
+  frames.text("array", settings.array_frame);
+  frames.finish();
+  yaml.finish();
+  return settings;
+}
+
 usbl::Reading readingOf(const sas_motion::UsblMeasurement& message, const UsblSettings& settings) {
   const double direction = variance(message.direction_variance, settings.direction_sigma);
   return {{message.slant_range, kPi - message.direction_y, message.direction_x},

@@ -5,7 +5,6 @@
 namespace sas_motion::ros_side {
 
 void UsblIngest::takeFix(const sensor_msgs::NavSatFix& message) {
-  ++counts_.fixes;
   if (!hasPosition(message) || !std::isfinite(message.altitude)) {
     ++counts_.no_fix;
     return;
@@ -15,21 +14,13 @@ void UsblIngest::takeFix(const sensor_msgs::NavSatFix& message) {
 }
 
 void UsblIngest::takeTransponder(const sensor_msgs::NavSatFix& message) {
-  const auto id = transponderId(message.header.frame_id);
-  if (!id) {
+  if (const auto id = transponderId(message.header.frame_id))
+    builder_.addTransponder(*id, {message.latitude, message.longitude, message.altitude});
+  else
     ++counts_.no_id;
-    return;
-  }
-  setTransponder(*id, {message.latitude, message.longitude, message.altitude});
-}
-
-void UsblIngest::setTransponder(std::uint32_t id, const Geodetic& position) {
-  transponders_[id] = position;
-  builder_.addTransponder(id, position);
 }
 
 void UsblIngest::take(const sensor_msgs::Imu& message) {
-  ++counts_.attitudes;
   const auto T = sensorAt(message.header.frame_id);
   if (!T) return;
   const auto C_map_body = rotationOf(message, *T);

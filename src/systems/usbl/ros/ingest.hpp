@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,19 +12,19 @@
 
 namespace sas_motion::ros_side {
 
-/// Turns messages into the pings of a calibration, live and from a bag alike: finds where antenna, attitude sensor and
-/// array sit by tf2, and counts what it refuses. The transform to the array's frame, where there is one at the first
-/// measurement, is the nominal mounting.
+/// Turns messages into the pings of a calibration, live and from a bag; finds the mountings of antenna, attitude sensor
+/// and array by tf2, and counts refused messages. The transform to the array's frame at the first measurement, if there
+/// is one, is the nominal mounting.
 class UsblIngest {
  public:
-  /// Messages that gave nothing; readings that gave no ping are counted by the builder.
+  /// Messages without use; the builder counts readings that gave no ping.
   struct Counts {
-    std::uint64_t fixes = 0, no_fix = 0;           ///< GNSS messages, and those without a position
-    std::uint64_t attitudes = 0, no_attitude = 0;  ///< attitude messages, and those without an orientation
-    std::uint64_t unknown_frame = 0;               ///< of a frame without a transform to the base frame
-    std::uint64_t other_array = 0;                 ///< measurements of another array
-    std::uint64_t no_id = 0;                       ///< transponders whose frame_id is no number
-    std::set<std::string> frames;                  ///< that are unknown
+    std::uint64_t no_fix = 0;         ///< GNSS messages without a position
+    std::uint64_t no_attitude = 0;    ///< attitude messages without an orientation
+    std::uint64_t unknown_frame = 0;  ///< messages of a frame without a transform to the base frame
+    std::uint64_t other_array = 0;    ///< measurements of another array
+    std::uint64_t no_id = 0;          ///< transponders whose frame_id is no number
+    std::set<std::string> frames;     ///< unknown frames
   };
 
   /// `transforms` outlives the ingest.
@@ -37,25 +36,21 @@ class UsblIngest {
   void take(const sensor_msgs::Imu& message);
   void take(const sas_motion::UsblMeasurement& message);
 
-  void setTransponder(std::uint32_t id, const Geodetic& position);
-
   usbl::PingBuilder& builder() { return builder_; }
   const usbl::PingBuilder& builder() const { return builder_; }
   const Counts& counts() const { return counts_; }
-  const std::map<std::uint32_t, Geodetic>& transponders() const { return transponders_; }
-  /// Of the array that is calibrated; empty before its first measurement.
+  /// Frame of the array that is calibrated; empty before its first measurement.
   const std::string& arrayFrame() const { return array_frame_; }
   bool hasNominal() const { return has_nominal_; }
 
  private:
-  /// Where a sensor sits; counts where nothing is known of it.
+  /// A sensor's mounting; counts unknown frames.
   std::optional<Transform> sensorAt(const std::string& frame);
 
   UsblSettings settings_;
   SensorFrames frames_;
   usbl::PingBuilder builder_;
   Counts counts_;
-  std::map<std::uint32_t, Geodetic> transponders_;
   std::string array_frame_;
   bool has_nominal_ = false;
 };

@@ -21,7 +21,7 @@ constexpr double kGnssPhase = 0.13, kAttitudePhase = 0.017;  // of their first m
 constexpr std::uint32_t kTransponder = 1;                    // id
 constexpr const char* kArrayFrame = "usbl_link";
 
-/// Something that happens at a steady rate.
+/// Events at a steady rate.
 struct Clock {
   double phase, rate;
   long ticks = 0;

@@ -10,13 +10,12 @@
 
 namespace sas_motion {
 
-/// Turns what the simulator of a USBL calibration gives into messages in a bag. GNSS and attitude have their own rates
-/// and do not fall on pings.
+/// Writes the simulated readings of a USBL calibration to a bag; GNSS and attitude have their own rates.
 class UsblRecorder {
  public:
   UsblRecorder(const usbl::Scenario& scenario, std::uint64_t seed, ros_side::BagOutput& bag);
 
-  /// The whole scenario; `progress` is told of seconds as they pass.
+  /// Records the whole scenario; `progress` gets the simulated seconds that have passed since its last call.
   void record(const std::function<void(double)>& progress);
 
  private:

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "systems/usbl/ros/recording.hpp"
-
 #include <fmt/format.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <sas_motion/MeasurementLabel.h>
@@ -12,11 +10,12 @@
 
 #include "bag/bag_reader.hpp"
 #include "bag/topics.hpp"
+#include "systems/usbl/ros/calibration_result.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
 
-/// A topic of a bag, as it stands there; throws where there is none, or one of another type.
+/// The name of a topic as in the bag; throws where it is missing or has another type.
 std::string topicOf(const BagReader& bag, const std::string& file, const std::string& wanted, const std::string& type,
                     const std::string& use) {
   for (const auto& connection : bag.connections()) {
@@ -30,7 +29,7 @@ std::string topicOf(const BagReader& bag, const std::string& file, const std::st
       file, wanted, type, use));
 }
 
-/// What holds for the whole bag, whenever it was recorded: transforms and surveyed transponders.
+/// Reads transforms and surveyed transponders, which hold for the whole bag.
 void readFixed(const std::string& file, const UsblSettings& settings, tf2::BufferCore& transforms, UsblIngest& ingest) {
   BagReader bag(file);
   tf2_msgs::TFMessage tf;
@@ -45,7 +44,7 @@ void readFixed(const std::string& file, const UsblSettings& settings, tf2::Buffe
   }
 }
 
-/// Truth and labels of a simulated bag.
+/// Takes truth and labels of a simulated bag.
 void takeTruth(const BagReader& bag, const BagMessage& m, const std::string& topic, UsblRecording& recording) {
   geometry_msgs::TransformStamped mounting;
   sas_motion::MeasurementLabel label;
@@ -60,14 +59,14 @@ void count(std::map<std::string, std::uint64_t>& counts, const std::string& reas
   if (number > 0) counts[reason] = number;
 }
 
-/// Why there is not a single ping, and what to do.
+/// The reason for a bag without a ping, with advice.
 std::string whyNoPing(const std::string& file, const UsblSettings& settings, const UsblRecording& recording,
                       const UsblIngest& ingest) {
   if (recording.readings == 0 && !settings.array_frame.empty())
     return fmt::format("{}: no measurement of the array {}; check frames.array", file, settings.array_frame);
   if (recording.readings == 0)
     return fmt::format("{}: topic {} holds no measurement", file, settings.measurement_topic);
-  if (ingest.transponders().empty())
+  if (ingest.builder().transponders().empty())
     return fmt::format(
         "{}: topic {} holds no transponder whose frame_id is a number, its id; without its surveyed position nothing "
         "can be calibrated",
@@ -91,7 +90,8 @@ void UsblRecording::takeSummary(const UsblIngest& ingest) {
   has_nominal = ingest.hasNominal();
   array_frame = ingest.arrayFrame();
   readings = ingest.builder().readings();
-  if (!ingest.transponders().empty()) transponder = ingest.transponders().begin()->second;
+  const auto& transponders = ingest.builder().transponders();
+  if (!transponders.empty()) transponder = transponders.begin()->second;
   for (int i = 0; i < usbl::kOmissions; ++i) {
     const auto omission = static_cast<usbl::Omission>(i);
     count(left_out, usbl::omissionText(omission), ingest.builder().omitted(omission));

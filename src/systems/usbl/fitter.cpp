@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/usbl/robust_fit.hpp"
+#include "sas_motion/systems/usbl/fitter.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -13,10 +13,9 @@ namespace {
 
 constexpr double kMedianOfGood = 0.6744897501960817;  // median of |r| for standard normal r
 constexpr int kScaleRounds = 50;
-constexpr double kLeastSlope = 0.05;  // a channel of nothing but outliers tells next to nothing
+constexpr double kLeastSlope = 0.05;  // bounds the mean slope of a channel with only outliers
 
-/// Normal equations of the weighted residuals, in units of the prior's standard deviations; what is not estimated
-/// stays.
+/// Normal equations of the weighted residuals, in units of the prior's sigmas; unknowns not estimated have no step.
 struct NormalEquations {
   Matrix<kUnknowns> A = Matrix<kUnknowns>::Identity();
   Vector<kUnknowns> b;
@@ -36,25 +35,24 @@ struct NormalEquations {
       }
     }
     for (int i = 0; i < kUnknowns; ++i)
-      if (!prior.estimated[static_cast<std::size_t>(i)]) A.row(i).setZero(), A.col(i).setZero(), A(i, i) = 1, b(i) = 0;
+      if (!prior.estimated[i]) A.row(i).setZero(), A.col(i).setZero(), A(i, i) = 1, b(i) = 0;
   }
 };
 
-/// The scale of each channel that its residuals at x show.
+/// The scale of each channel from the median of its residuals at x.
 Vector<kChannels> scaleAt(const Problem& problem, const Unknowns& x) {
   std::array<std::vector<double>, kChannels> residuals;
   for (const auto& ping : problem.pings) {
     const Vector<kChannels> residual = normalisedResidual(problem, ping, x).cwiseProduct(problem.scale);
     for (int i = 0; i < kChannels; ++i)
-      if (ping.reading.has(i)) residuals[static_cast<std::size_t>(i)].push_back(std::abs(residual(i)));
+      if (ping.reading.has(i)) residuals[i].push_back(std::abs(residual(i)));
   }
   const auto unknowns =
       static_cast<double>(std::count(problem.prior.estimated.begin(), problem.prior.estimated.end(), true));
   Vector<kChannels> scale = problem.scale;
   for (int i = 0; i < kChannels; ++i) {
-    const auto& all = residuals[static_cast<std::size_t>(i)];
-    const double count = static_cast<double>(all.size()),
-                 spent = unknowns / kChannels;  // the fit takes its share of freedom
+    const auto& all = residuals[i];
+    const double count = static_cast<double>(all.size()), spent = unknowns / kChannels;  // spent: degrees of freedom
     const double median =
         count > 2 * unknowns ? quantile(all, 0.5) / kMedianOfGood * std::sqrt(count / (count - spent)) : 0;
     if (median > 0) scale(i) = median;
@@ -80,7 +78,7 @@ Matrix<kUnknowns> influenceCovariance(const Problem& problem, const Loss& loss, 
       meat += psi * psi / variance * H.row(i).transpose() * H.row(i);
     }
   }
-  // The slope of one reading is 0 or negative where it is doubtful; only their mean is an information.
+  // The slope of a single outlier is 0 or negative; only the mean slope gives an information.
   const Vector<kChannels> mean_slope = slope.cwiseQuotient(count.cwiseMax(1)).cwiseMax(kLeastSlope);
   const Matrix<kUnknowns> bread = covarianceFrom(information(problem, x, mean_slope), prior);
   const Matrix<kUnknowns> known = prior.sigma.cwiseAbs2().cwiseInverse().asDiagonal();
