@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "campaign/imaging_measures.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/focus_scene.hpp"
 #include "sas_motion/imaging/micronavigation.hpp"
-#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/math/statistics.hpp"
 #include "sas_motion/parallel/threads.hpp"
 #include "systems/ins_gps_dvl/campaign.hpp"
