@@ -95,7 +95,7 @@ Followed follow(const Survey& survey, const std::string& name, const Recording& 
   for (const auto& aperture : survey.apertures)
     result.apertures.emplace_back(aperture, survey.images.aperture.longest_gap);
   const auto estimator = makeAnyEstimator(name, configOf(survey.scenario));
-  replay(*estimator, recording, [&](const Output& output) {
+  replay(*estimator, recording, [&](const ins::Output& output) {
     for (const auto& solution : output.solutions) {
       const Stamp stamp = solution.stamp;
       result.window.add(stamp, solution.state);
