@@ -28,7 +28,6 @@ using namespace sas_motion::ros_side;
 using nlohmann::json;
 
 constexpr std::size_t kMostPoints = 6000;  // of one plotted series
-constexpr double kShortestOutage = 30;     // a gap between fixes that is reported as an outage [s]
 constexpr double kAligned = 2;             // a heading that is off by less is aligned [deg],
 constexpr double kAlignedFor = 30;         // where it stays so to the end, for this time at least [s]
 
@@ -54,15 +53,6 @@ json toJson(const Detection& d) {
           {"hits", d.hits},
           {"precision", orNull(d.precision())},
           {"recall", orNull(d.recall())}};
-}
-
-/// Groups of states as `groups` has them, angles in degrees and named so.
-template <class Value>
-void addErrors(const Named<Value>& groups, json& m) {
-  for (const auto& [group, error] : groups) {
-    const bool angle = group == "heading" || group == "tilt";
-    m[angle ? group + "_deg" : group] = toJson(error, angle ? kRadPerDeg : 1);
-  }
 }
 
 /// How far the heading of an estimate is off [deg], where that is known.
@@ -192,10 +182,12 @@ json metricsOf(const Recording& recording, const Options& options, const std::st
            {"rejected", verdicts[2]},
            {"stale", verdicts[3]},
            {"invalid", verdicts[4]}}}};
-  addErrors(report.errors, m);
+  for (const auto& [group, error] : report.errors) {
+    const bool angle = group == "heading" || group == "tilt";
+    m[angle ? group + "_deg" : group] = toJson(error, angle ? kRadPerDeg : 1);
+  }
   for (const auto& [group, nees] : scorer.nees()) m["nees"][group] = toJson(nees);
-  const auto& solutions = estimator.solutions;  // without a covariance, NIS has no meaning
-  if (std::any_of(solutions.begin(), solutions.end(), [](const Solution& s) { return s.has_covariance(); }))
+  if (!report.nees.empty())  // without a covariance of its own, an estimate has no NIS either
     for (const auto& [sensor, nis] : scorer.nis()) m["nis"][sensor] = toJson(nis);
   if (!recording.outliers.empty()) {
     for (const auto& [sensor, detection] : scorer.detections()) m["outliers"][sensor] = toJson(detection);

@@ -57,6 +57,21 @@ TEST(Suite, SaysWhatIsWrong) {
   expectRefused(zhuSuite(10, 1, "[kf]", kTwoLaws), "skip");
 }
 
+TEST(Suite, ACampaignReadsScenarioDurationAndLawsInEverySystem) {
+  const auto suite = suiteOf(
+      "{campaigns: [{name: a, scenario: {duration: 60}, duration: 40, estimators: [kf]},"
+      " {name: b, system: usbl, scenario: {duration: 60}, duration: 500, estimators: [ckf], laws: []}]}");
+  const auto &towfish = *suite.campaigns[0], &usbl = *suite.campaigns[1];
+  EXPECT_EQ(towfish.duration, 40) << "the campaign's goes over the scenario's";
+  EXPECT_EQ(towfish.skip, 20);
+  ASSERT_EQ(towfish.laws.size(), 1u);
+  EXPECT_EQ(towfish.laws[0].name, "as in the scenario");
+  EXPECT_EQ(usbl.duration, 500);
+  EXPECT_EQ(usbl.skip, 400) << "the last hundred seconds are scored";
+  ASSERT_EQ(usbl.laws.size(), 1u);
+  EXPECT_EQ(usbl.laws[0].name, usbl.laws[0].description);
+}
+
 TEST(Suite, TheSuitesInTheRepositoryCanBeRead) {
   const auto any = [](const std::string&, const towfish::Config& config) {
     return towfish::makeEstimator("kf", config);

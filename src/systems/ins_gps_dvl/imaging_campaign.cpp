@@ -50,21 +50,29 @@ class ImagingCampaign final : public Campaign {
   std::vector<EstimatorReport> run(std::size_t law, std::uint64_t seed) const override {
     const Recording recording = simulate(scenarios_[law], *trajectory_, seed);
     const auto estimates = estimatesOf(scenarios_[law], recording);
-    std::vector<std::vector<double>> positions(estimators.size());
-    std::vector<EstimatorReport> reports(estimators.size());
+    std::vector<EstimatorScorer> scorers;
+    for (const auto& name : estimators) scorers.emplace_back(name);
     for (std::size_t window = 0; window < apertures_.size(); ++window) {
       FocusBench bench(settings_, apertures_[window].times, apertures_[window].truth, 1);
       for (std::size_t i = 0; i < estimators.size(); ++i) {
-        reports[i].windows.push_back({{"start", apertures_[window].start}});
+        auto& measures = scorers[i].facts().windows.emplace_back();
+        measures.emplace_back("start", apertures_[window].start);
         const auto poses = estimates[i].tracks[window].poses(settings_.sonar.altitude);
         if (!poses) continue;
-        positions[i].push_back(imaging::horizontalError(*poses, apertures_[window].truth));
+        const double error = imaging::horizontalError(*poses, apertures_[window].truth);
+        scorers[i].addSample(std::isfinite(error));
+        scorers[i].addError("position", error);
         for (const auto& measure : imaging::imageMeasures(bench, *poses, settings_.sonar.wavelength()))
-          reports[i].windows.back().push_back(measure);
+          measures.push_back(measure);
       }
     }
-    for (std::size_t i = 0; i < estimators.size(); ++i)
-      complete(reports[i], estimators[i], estimates[i], positions[i], recording.aiding.size());
+    std::vector<EstimatorReport> reports;
+    for (std::size_t i = 0; i < estimators.size(); ++i) {
+      EstimatorReport& facts = scorers[i].facts();
+      facts.diverged |= facts.samples == 0 || !estimates[i].failure.empty();
+      scorers[i].setCost(estimates[i].seconds, recording.aiding.size());
+      reports.push_back(scorers[i].report());
+    }
     return reports;
   }
 
@@ -123,16 +131,6 @@ class ImagingCampaign final : public Campaign {
     });
     result.failure = estimator->failure();
     return result;
-  }
-
-  void complete(EstimatorReport& report, const std::string& name, const Estimate& estimate,
-                const std::vector<double>& positions, std::size_t readings) const {
-    report.estimator = name;
-    report.samples = positions.size();
-    report.diverged = positions.empty() || !estimate.failure.empty() ||
-                      !std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); });
-    if (!positions.empty()) report.errors.emplace_back("position", summarize(positions));
-    report.microseconds = 1e6 * estimate.seconds / static_cast<double>(std::max<std::size_t>(1, readings));
   }
 
   std::vector<Scenario> scenarios_;  // by law

@@ -29,10 +29,9 @@ void score(const Estimate& estimate, const State& truth, bool scored, EstimatorS
   const Matrix<kStates>& P = estimate.belief.covariance;
   State error = estimate.belief.mean - truth;
   error.head<3>() = error.head<3>().unaryExpr(&wrapAngle);
-  const State variance = P.diagonal();
   const double square = normalisedSquare<kStates>(error, P);
-  scorer.trace().add(estimate.time, error.head<3>().norm(), variance.head<3>().sum());
-  scorer.trace().add("lever", error.tail<3>().norm(), variance.tail<3>().sum());
+  scorer.trace().add(estimate.time, error.head<3>().norm(), P.diagonal().head<3>().sum());
+  scorer.trace().add("lever", error.tail<3>().norm(), P.diagonal().tail<3>().sum());
   scorer.trace().nees.push_back(square);
   if (!scored) return;
   scorer.addSample(error.allFinite() && P.allFinite());
@@ -40,7 +39,7 @@ void score(const Estimate& estimate, const State& truth, bool scored, EstimatorS
   scorer.addNees("full", square, kStates);
   for (const auto& [name, first] : {std::pair("mounting", kMountingX), std::pair("lever", kLeverX)})
     scorer.addNees(name, normalisedSquare<3>(error.segment<3>(first), P.block<3, 3>(first, first)), 3);
-  scorer.facts().locked_out = (error.array().abs() > kWrongSigma * variance.array().sqrt()).any();
+  scorer.facts().locked_out = (error.array().abs() > kWrongSigma * P.diagonal().array().sqrt()).any();
 }
 
 Config readSettings(YamlSection yaml) {
