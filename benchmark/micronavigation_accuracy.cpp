@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/micronavigation.hpp"
-#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/io/cpu_time.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/random.hpp"

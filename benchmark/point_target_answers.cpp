@@ -11,10 +11,10 @@
 
 #include "imaging/fourier.hpp"
 #include "sas_motion/imaging/backprojection.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/image.hpp"
 #include "sas_motion/imaging/point_target.hpp"
-#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace {

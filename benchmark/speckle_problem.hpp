@@ -13,8 +13,8 @@
 
 #include "parallel/instruction_sets.hpp"
 #include "sas_motion/imaging/backprojection.hpp"
-#include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/echo_lines.hpp"
+#include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/math/random.hpp"
 
 namespace sas_motion::benchmark {

@@ -3,10 +3,11 @@
 #include "sas_motion/imaging/echo_lines.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include "sas_motion/imaging/interpolator.hpp"
 #include <atomic>
+#include <cmath>
+
 #include "imaging/fourier.hpp"
+#include "sas_motion/imaging/interpolator.hpp"
 #include "sas_motion/imaging/sonar.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/parallel/threads.hpp"

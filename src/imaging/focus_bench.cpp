@@ -9,10 +9,10 @@
 #include <stdexcept>
 
 #include "sas_motion/imaging/backprojection.hpp"
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/image.hpp"
 #include "sas_motion/imaging/motion_compensation.hpp"
-#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/io/atomic_file.hpp"
 
 namespace sas_motion::imaging {

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/motion_compensation.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "imaging/fourier.hpp"
+#include "sas_motion/imaging/motion_compensation.hpp"
 #include "sas_motion/math/angles.hpp"
 
 namespace sas_motion::imaging {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/trajectory.hpp"
-
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <numeric>
+
+#include "sas_motion/imaging/trajectory.hpp"
 
 namespace sas_motion::imaging {
 namespace {

@@ -10,7 +10,8 @@
 
 namespace sas_motion::ros_side {
 
-/// Names of frames, and where the map is: what every configuration file of reprocess and of the estimators' nodelets has.
+/// Names of frames, and where the map is: what every configuration file of reprocess and of the estimators' nodelets
+/// has.
 struct MapSettings {
   std::string map_frame = "map";
   std::string odom_frame = "odom";

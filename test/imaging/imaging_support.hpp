@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "sas_motion/imaging/backprojection.hpp"
-#include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/imaging/echo_lines.hpp"
+#include "sas_motion/imaging/echo_simulation.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/random.hpp"
 

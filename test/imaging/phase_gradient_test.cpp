@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/motion_compensation.hpp"
-
 #include "imaging/imaging_support.hpp"
+#include "sas_motion/imaging/motion_compensation.hpp"
 #include "sas_motion/imaging/point_target.hpp"
 
 namespace sas_motion::imaging::testing {

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/imaging/trajectory.hpp"
-
 #include <Eigen/Geometry>
 
 #include "imaging/imaging_support.hpp"
 #include "sas_motion/imaging/point_target.hpp"
+#include "sas_motion/imaging/trajectory.hpp"
 
 namespace sas_motion::imaging::testing {
 namespace {

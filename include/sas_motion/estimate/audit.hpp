@@ -22,8 +22,8 @@ struct Audit {
   double nis = 0;
   Vector<kMostRows> weights = Vector<kMostRows>::Ones();
   int iterations = 0;
-  std::string_view reason = "";     ///< plain words, a literal; empty where there is nothing to say
-  double effective_size = 0;        ///< of a filter's particles, where it has several
+  std::string_view reason = "";    ///< plain words, a literal; empty where there is nothing to say
+  double effective_size = 0;       ///< of a filter's particles, where it has several
   HypothesisWeights hypotheses{};  ///< of a filter that keeps several
 };
 

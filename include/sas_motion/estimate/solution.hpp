@@ -22,18 +22,18 @@ struct Current {
 
 /// Where the base is at a stamp, how it lies and moves, as an estimator of any system says it.
 ///
-/// Axes are those of REP-103: the map's east, north, up; the base's forward, port, up. A covariance of zeros is not known;
-/// kNotEstimated on its diagonal marks what the estimator does not estimate.
+/// Axes are those of REP-103: the map's east, north, up; the base's forward, port, up. A covariance of zeros is not
+/// known; kNotEstimated on its diagonal marks what the estimator does not estimate.
 struct Solution {
   Stamp stamp = 0;
   Vector<3> position_map = Vector<3>::Zero();  ///< from the datum [m]
   Eigen::Quaterniond q_map_base = Eigen::Quaterniond::Identity();
-  Vector<3> velocity_base = Vector<3>::Zero();      ///< over the ground [m/s]
-  Vector<3> rate_base = Vector<3>::Zero();          ///< over the ground [rad/s]
-  Matrix<6> pose_covariance = Matrix<6>::Zero();    ///< of position and rotation about the map's axes [m, rad]
-  Matrix<6> twist_covariance = Matrix<6>::Zero();   ///< of velocity and rate [m/s, rad/s]
-  std::optional<Geodetic> place;                    ///< of the position, where the map's datum is known
-  std::optional<Matrix<3>> place_covariance;        ///< east, north, up [m^2]
+  Vector<3> velocity_base = Vector<3>::Zero();     ///< over the ground [m/s]
+  Vector<3> rate_base = Vector<3>::Zero();         ///< over the ground [rad/s]
+  Matrix<6> pose_covariance = Matrix<6>::Zero();   ///< of position and rotation about the map's axes [m, rad]
+  Matrix<6> twist_covariance = Matrix<6>::Zero();  ///< of velocity and rate [m/s, rad/s]
+  std::optional<Geodetic> place;                   ///< of the position, where the map's datum is known
+  std::optional<Matrix<3>> place_covariance;       ///< east, north, up [m^2]
   std::optional<Current> current;
 
   bool has_height() const { return pose_covariance(2, 2) < kNotEstimated; }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <vector>
+
 #include "sas_motion/imaging/sonar.hpp"
 
 namespace sas_motion::imaging {

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sas_motion/imaging/echo_lines.hpp"
 #include <vector>
+
+#include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/imaging/image.hpp"
 
 namespace sas_motion::imaging {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <vector>
+
 #include "sas_motion/imaging/echo_lines.hpp"
 #include "sas_motion/math/stamp.hpp"
 

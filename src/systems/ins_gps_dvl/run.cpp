@@ -10,7 +10,8 @@
 
 namespace sas_motion::ins {
 
-EstimatorRun::EstimatorRun(const SessionOptions& options, const std::vector<std::string>& names, EstimatorFactory factory)
+EstimatorRun::EstimatorRun(const SessionOptions& options, const std::vector<std::string>& names,
+                           EstimatorFactory factory)
     : options_(options),
       factory_(std::move(factory)),
       queue_(options.lag, options.max_gap),

@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "bag/bag_output.hpp"
-#include "bag/reprocess.hpp"
 #include "bag/odometry_in.hpp"
+#include "bag/reprocess.hpp"
 #include "sas_motion/systems/sins_dvl/estimator.hpp"
-#include "systems/sins_dvl/ros/recorder.hpp"
 #include "systems/registry.hpp"
+#include "systems/sins_dvl/ros/recorder.hpp"
 
 namespace sas_motion::ros_side {
 namespace {
@@ -26,8 +26,8 @@ sins::Scenario scenarioWithLevers() {
 }
 
 /// The same readings without a bag between.
-std::vector<ins::NavigationSolution> inMemory(const sins::Scenario& scenario, std::uint64_t seed, const std::string& name,
-                                    int particles) {
+std::vector<ins::NavigationSolution> inMemory(const sins::Scenario& scenario, std::uint64_t seed,
+                                              const std::string& name, int particles) {
   const auto recording = sins::simulate(scenario, ins::Trajectory(scenario.track, scenario.duration), seed);
   sins::Config config;
   config.parameters = scenario.parameters;
