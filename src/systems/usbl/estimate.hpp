@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sas_motion/systems/usbl/calibrator.hpp"
-#include "sas_motion/systems/usbl/fitter.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 #include "sas_motion/systems/usbl/simulator.hpp"
 
 namespace sas_motion::usbl {

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/usbl/fitter.hpp"
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "sas_motion/math/statistics.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 
 namespace sas_motion::usbl {
 namespace {

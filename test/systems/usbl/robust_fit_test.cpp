@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/usbl/fitter.hpp"
 #include "sas_motion/systems/usbl/problem.hpp"
 #include "sas_motion/systems/usbl/simulator.hpp"
 #include "support.hpp"

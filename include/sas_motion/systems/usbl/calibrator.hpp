@@ -9,7 +9,7 @@
 
 #include "sas_motion/config/yaml_section.hpp"
 #include "sas_motion/filters/adaptive_cubature_filter.hpp"
-#include "sas_motion/systems/usbl/fitter.hpp"
+#include "sas_motion/systems/usbl/problem.hpp"
 
 namespace sas_motion::usbl {
 

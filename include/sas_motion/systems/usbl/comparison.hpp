@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sas_motion/systems/usbl/calibrator.hpp"
-#include "sas_motion/systems/usbl/fitter.hpp"
 #include "sas_motion/systems/usbl/problem.hpp"
 
 namespace sas_motion::usbl {

@@ -8,7 +8,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include "sas_motion/systems/usbl/fitter.hpp"
 #include "sas_motion/systems/usbl/problem.hpp"
 
 namespace sas_motion::usbl {

@@ -75,9 +75,7 @@ void UsblRecorder::truth(ros::Time time, const usbl::Pose& pose) {
   message.header.stamp = time;
   message.header.frame_id = "map";
   message.child_frame_id = settings_.base_frame;
-  message.pose.pose.position.x = pose.position_map(0);
-  message.pose.pose.position.y = pose.position_map(1);
-  message.pose.pose.position.z = pose.position_map(2);
+  set(message.pose.pose.position, pose.position_map);
   message.pose.pose.orientation = messageOf(orientationOf(rotationOf(pose.attitude)));
   bag_.write("truth/odometry", time, message);
 }
