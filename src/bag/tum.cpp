@@ -24,15 +24,19 @@ void TumFile::write(const Solution& solution) {
   line_.clear();
   fmt::format_to(std::back_inserter(line_), "{}.{:09d}", solution.stamp / kNanosecondsPerSecond,
                  solution.stamp % kNanosecondsPerSecond);
-  const auto append = [this](double value, int decimals) {
+  const auto append = [this](double value, int decimals, bool in_plane) {
     line_.push_back(' ');
-    if (value == 0)
+    if (value == 0 && !in_plane)
       line_.push_back('0');  // what a system in the plane does not have
     else
       appendFixed(value, decimals, line_);
   };
-  for (const double part : solution.position_map) append(part, 9);
-  for (const double part : solution.q_map_base.coeffs()) append(part, 12);
+  const Vector<3>& p = solution.position_map;
+  const Eigen::Quaterniond& q = solution.q_map_base;
+  for (const double part : {p.x(), p.y()}) append(part, 9, true);
+  append(p.z(), 9, false);
+  for (const double part : {q.x(), q.y()}) append(part, 12, false);
+  for (const double part : {q.z(), q.w()}) append(part, 12, true);
   line_.push_back('\n');
   std::fwrite(line_.data(), 1, line_.size(), stream_);  // commit() looks for failures
 }

@@ -50,8 +50,8 @@ Solution solutionOf(const Estimate& estimate, const LocalFrame* map) {
 
   const GroundVelocity velocity(x);
   solution.velocity_base.head<2>() = velocity.value;
-  solution.twist_covariance.topLeftCorner<2, 2>() = velocity.J * P * velocity.J.transpose();
-  solution.twist_covariance(1, 0) = solution.twist_covariance(0, 1);
+  const Matrix<2> V = velocity.J * P * velocity.J.transpose();
+  solution.twist_covariance.topLeftCorner<2, 2>() << V(0, 0), V(0, 1), V(0, 1), V(1, 1);
   solution.twist_covariance.diagonal().tail<4>().setConstant(kNotEstimated);
   solution.current = Current{{x(kCurrentEast), x(kCurrentNorth)}, eastNorth(P, kCurrentNorth, kCurrentEast)};
   if (!map) return solution;
