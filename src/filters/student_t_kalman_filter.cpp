@@ -49,10 +49,10 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
     return result;
   }
   const double nu = options_.degrees_of_freedom;
-  const auto weightsFor = [&](const Vector<M>& squared) -> Vector<M> {
+  const auto weights_for = [&](const Vector<M>& squared) -> Vector<M> {
     return (nu + 1) / (nu + squared.cwiseQuotient(variance).array());
   };
-  result.weights = weightsFor(z.innovation.cwiseAbs2() + T.diagonal());  // at the prediction
+  result.weights = weights_for(z.innovation.cwiseAbs2() + T.diagonal());  // at the prediction
   Matrix<M> R = variance.cwiseQuotient(result.weights).asDiagonal();
   result.converged = false;
   for (result.iterations = 0; result.iterations < options_.max_iterations && !result.converged;) {
@@ -61,7 +61,7 @@ Update<Gaussian<N>, M> StudentTKalmanFilter<N>::update(const Belief& prior, cons
     const Vector<M> residual = z.innovation - T * S.solve(z.innovation);
     const Vector<M> posterior_variance = T.diagonal() - (T * S.solve(T)).diagonal();
     const Vector<M> squared = residual.cwiseAbs2() + posterior_variance;
-    const Vector<M> weights = weightsFor(squared);
+    const Vector<M> weights = weights_for(squared);
     result.converged = (weights - result.weights).cwiseAbs().maxCoeff() < options_.tolerance;
     result.weights = weights;
     R = variance.cwiseQuotient(weights).asDiagonal();
@@ -81,6 +81,5 @@ Influence StudentTKalmanFilter<N>::influence(double residual, double variance) c
 }
 
 SAS_MOTION_INSTANTIATE_UPDATES(StudentTKalmanFilter)
-SAS_MOTION_INSTANTIATE_LARGE_UPDATES(StudentTKalmanFilter)
 
 }  // namespace sas_motion

@@ -32,8 +32,8 @@ double standardError(const std::vector<double>& values) {
   if (values.size() < 2) return 0;
   const auto n = static_cast<double>(values.size());
   const double centre = mean(values);
-  const auto addSquare = [&](double sum, double value) { return sum + (value - centre) * (value - centre); };
-  return std::sqrt(std::accumulate(values.begin(), values.end(), 0.0, addSquare) / (n - 1) / n);
+  const auto add_square = [&](double sum, double value) { return sum + (value - centre) * (value - centre); };
+  return std::sqrt(std::accumulate(values.begin(), values.end(), 0.0, add_square) / (n - 1) / n);
 }
 
 double quantile(std::vector<double> values, double fraction) {

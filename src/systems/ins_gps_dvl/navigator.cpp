@@ -143,7 +143,7 @@ void Navigator<Filter>::feedBack() {
 }
 
 #define SAS_MOTION_INSTANTIATE(Filter) template class Navigator<Filter<kStates>>;
-SAS_MOTION_FOR_GAUSSIAN_FILTERS(SAS_MOTION_INSTANTIATE)
+SAS_MOTION_FOR_LARGE_FILTERS(SAS_MOTION_INSTANTIATE)
 template class Navigator<Unaided>;
 
 }  // namespace sas_motion::ins

@@ -102,7 +102,7 @@ std::optional<NavigationSolution> solutionOf(const Navigator<Filter>& navigator,
 
 #define SAS_MOTION_INSTANTIATE(Filter) \
   template std::optional<NavigationSolution> solutionOf(const Navigator<Filter<kStates>>&, Source);
-SAS_MOTION_FOR_GAUSSIAN_FILTERS(SAS_MOTION_INSTANTIATE)
+SAS_MOTION_FOR_LARGE_FILTERS(SAS_MOTION_INSTANTIATE)
 template std::optional<NavigationSolution> solutionOf(const Navigator<Unaided>&, Source);
 
 }  // namespace sas_motion::ins

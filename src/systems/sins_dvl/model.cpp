@@ -86,14 +86,14 @@ NavigationState moved(const NavigationState& state, const Preintegration& preint
   const double per_T = 1 / T, per_M = 1 / M, per_N = 1 / N, per_parallel = per_N / c;
   const Vector<3> gravity(0, 0, -earth::gravityBySine(s, state.height)),
       turning(0, earth::kRotationRate * c, earth::kRotationRate * s);
-  const auto overEarth = [&](const Vector<3>& v) {
+  const auto over_earth = [&](const Vector<3>& v) {
     return Vector<3>(-v.y() * per_M, v.x() * per_N, v.x() * s * per_parallel);
   };
-  const auto pull = [&](const Vector<3>& v) -> Vector<3> { return gravity - (2 * turning + overEarth(v)).cross(v); };
+  const auto pull = [&](const Vector<3>& v) -> Vector<3> { return gravity - (2 * turning + over_earth(v)).cross(v); };
 
   const Vector<3> v = state.velocity_nav;
   const Vector<3> middle_v = v + per_T * way + 0.5 * T * pull(v);
-  const Vector<3> turn = turning + overEarth(middle_v), acceleration = pull(middle_v);
+  const Vector<3> turn = turning + over_earth(middle_v), acceleration = pull(middle_v);
   velocity -= turn.cross(T * velocity - way);  // later readings are on axes that the Earth has turned
   way -= turn.cross(T / 3 * way);
   const Vector<3> mean_v = v + per_T * way + 0.5 * T * acceleration;

@@ -99,15 +99,15 @@ ins::Recording simulate(const Scenario& scenario, const ins::Trajectory& traject
   unit.gyro_markov = 0;
   ins::addImuErrors(run.imu, unit, seed);
   Dvl dvl(p, 1 / scenario.dvl.rate, seed);
-  const auto readDvl = [&](const ins::TruthSample& truth, const Vector<3>& noise) { return dvl.read(truth, noise); };
-  readAlong(trajectory, scenario.duration, scenario.dvl, ins::Sensor::Dvl, seed, readDvl, run.aiding);
-  const auto readDepth = [&](const ins::TruthSample& truth, const Vector<3>& noise) {
+  const auto read_dvl = [&](const ins::TruthSample& truth, const Vector<3>& noise) { return dvl.read(truth, noise); };
+  readAlong(trajectory, scenario.duration, scenario.dvl, ins::Sensor::Dvl, seed, read_dvl, run.aiding);
+  const auto read_depth = [&](const ins::TruthSample& truth, const Vector<3>& noise) {
     ins::Aiding reading;
     reading.fix = truth.state;
     reading.fix.height += (truth.state.q_nav_body * p.depth_lever_body).z() + p.depth_white * noise(0);
     return reading;
   };
-  readAlong(trajectory, scenario.duration, scenario.depth, ins::Sensor::Depth, seed, readDepth, run.aiding);
+  readAlong(trajectory, scenario.duration, scenario.depth, ins::Sensor::Depth, seed, read_depth, run.aiding);
   ins::sortByStamp(run.aiding);
   return run;
 }

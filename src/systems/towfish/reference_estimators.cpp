@@ -77,7 +77,7 @@ double estimate(const Config& config, const Scenario& scenario, const SimulatedR
                                                    : make(name, config);
   Output output;
   double seconds = 0, begin = cpuSeconds();
-  const auto handOver = [&] {
+  const auto hand_over = [&] {
     seconds += cpuSeconds() - begin;
     listen(output);
     output.clear();
@@ -86,10 +86,10 @@ double estimate(const Config& config, const Scenario& scenario, const SimulatedR
   std::size_t taken = 0;
   for (const auto& labelled : run.measurements()) {
     estimator->process(oracle ? withTrueVariance(labelled) : labelled.z, output);
-    if (++taken % kPart == 0) handOver();
+    if (++taken % kPart == 0) hand_over();
   }
   estimator->finish(output);
-  handOver();
+  hand_over();
   return seconds;
 }
 

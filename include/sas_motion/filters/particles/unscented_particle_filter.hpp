@@ -130,7 +130,7 @@ class UnscentedParticleFilter {
     std::array<const Belief*, kGathered> beliefs;
     std::array<double, kGathered> weights;
     int count = 0;
-    const auto addGathered = [&] {
+    const auto add_gathered = [&] {
       filter_.addMoments(
           count, [&](int k) -> const Belief& { return *beliefs[static_cast<std::size_t>(k)]; },
           [&](int k) { return weights[static_cast<std::size_t>(k)]; }, moments.mean, moments.covariance);
@@ -139,9 +139,9 @@ class UnscentedParticleFilter {
     const double sum = overFinite(particles_, state, [&](std::size_t i, double weight) {
       beliefs[static_cast<std::size_t>(count)] = &particles_[i].belief;
       weights[static_cast<std::size_t>(count)] = weight;
-      if (++count == kGathered) addGathered();
+      if (++count == kGathered) add_gathered();
     });
-    if (count > 0) addGathered();
+    if (count > 0) add_gathered();
     moments.covariance /= sum;
     return moments;
   }

@@ -166,18 +166,18 @@ gtsam::Vector AidingFactor::unwhitenedError(const gtsam::Values& values,
 void AidingFactor::distort(const gtsam::Values& values, const LinearMeasurement<kStates, 3>& z, double& error,
                            Matrix<1, kStates>& row, boost::optional<std::vector<gtsam::Matrix>&> H) const {
   const auto estimated = [&](gtsam::Key key) { return std::find(keys().begin(), keys().end(), key) != keys().end(); };
-  const auto vectorAt = [&](gtsam::Key key) -> Vector<3> {
+  const auto vector_at = [&](gtsam::Key key) -> Vector<3> {
     return estimated(key) ? Vector<3>(values.at<gtsam::Vector3>(key)) : Vector<3>::Zero();
   };
   const double scale = estimated(kDvlScaleKey) ? values.at<double>(kDvlScaleKey) : 0;
-  const Matrix<3> D = dvlDistortion(scale, vectorAt(kDvlMisalignmentKey));
+  const Matrix<3> D = dvlDistortion(scale, vector_at(kDvlMisalignmentKey));
   // The velocity of the DVL where it is told to be, which the innovation is of, and where it is.
   const NavigationState& state = values.at<Node>(keys()[0]).state;
   const Matrix<3> turning = skew(rateOverGround(state, rate_body_));
   const Vector<3> of_ins = state.q_nav_body.conjugate() * state.velocity_nav;
   const Vector<3> told = of_ins - model_->velocityOfIns(state, rate_body_, Vector<3>::Zero());
   const Matrix<3> drift = driftTurn(*model_, values.at<Node>(keys()[0]));
-  const Vector<3> velocity = told + turning * vectorAt(kDvlLeverKey), seen = drift * velocity;
+  const Vector<3> velocity = told + turning * vector_at(kDvlLeverKey), seen = drift * velocity;
   error += (D.row(row_) * seen)(0) - (told - of_ins + drift * of_ins)(row_);
   row.head<9>() = -D.row(row_) * z.H.leftCols<9>();
   if (model_->parameters().dvl_drift)
