@@ -179,7 +179,8 @@ void AidingFactor::distort(const gtsam::Values& values, const LinearMeasurement<
   const Matrix<3> drift = driftTurn(*model_, values.at<Node>(keys()[0]));
   const Vector<3> velocity = told + turning * vector_at(kDvlLeverKey), seen = drift * velocity;
   error += (D.row(row_) * seen)(0) - (told - of_ins + drift * of_ins)(row_);
-  row.head<9>() = -D.row(row_) * z.H.leftCols<9>();
+  row.head<9>() = D.row(row_) * z.H.leftCols<9>();
+  row.head<9>() *= -1;  // the error is h(x) - z
   if (model_->parameters().dvl_drift)
     row(kDvlVelocity) = -(D.row(row_) * model_->dvlError(velocity, Errors::Unit(kDvlVelocity)))(0);
   if (!H) return;
