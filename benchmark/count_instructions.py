@@ -5,6 +5,7 @@
 
 usage: count_instructions.py TOOLS [OTHER_TOOLS]    folders with run_campaign; with two, the ratio of the second to the first
 """
+import os
 import pathlib
 import re
 import subprocess
@@ -29,7 +30,7 @@ def counts(tools, names):
         suite, profile = pathlib.Path(folder) / "suite.yaml", pathlib.Path(folder) / "profile"
         suite.write_text(SUITE.format(scenarios=ROOT / "config" / "scenarios", ins=names), encoding="utf-8")
         subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}", pathlib.Path(tools) / "run_campaign", suite, "--tasks", "0:2", "-j", "1"],
-                       check=True, capture_output=True)
+                       check=True, capture_output=True, env={key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"})
         return inclusive(profile)
 
 
