@@ -1,10 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Instructions of the filters' and smoothers' updates, counted by callgrind: repeatable whatever else the machine does.
-
-usage: count_instructions.py TOOLS [OTHER_TOOLS]    folders with run_campaign; with two, the ratio of the second to the first
-"""
+"""Instructions of the filters' and smoothers' updates, counted by callgrind: repeatable whatever else the machine does."""
+import argparse
 import os
 import pathlib
 import re
@@ -61,10 +59,14 @@ def inclusive(profile):
 
 def main():
     """See above."""
-    if len(sys.argv) not in (2, 3):
-        sys.exit(__doc__)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("tools", help="folder with run_campaign")
+    parser.add_argument("other_tools", nargs="?", help="a second such folder, of which the ratio to the first is printed too")
+    args = parser.parse_args()
     tables = []
-    for tools in sys.argv[1:]:
+    for tools in filter(None, (args.tools, args.other_tools)):
+        if not (pathlib.Path(tools) / "run_campaign").is_file():
+            parser.error(f"{tools}: there is no run_campaign in this folder")
         for names in ("kf27, robust_kf27", "ckf27, robust_ckf27"):  # as they were called before
             try:
                 tables.append(counts(tools, names))
