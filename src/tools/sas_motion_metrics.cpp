@@ -18,7 +18,6 @@
 #include "evaluation/solution_errors.hpp"
 #include "sas_motion/math/angles.hpp"
 #include "sas_motion/math/statistics.hpp"
-#include "sas_motion/systems/towfish/solution.hpp"
 #include "tools/main_guard.hpp"
 
 namespace {
