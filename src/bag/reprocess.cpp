@@ -101,14 +101,20 @@ class BagRun {
     for (std::size_t i = 0; i < topics.size(); ++i)
       if (!topics[i].topic.empty() || topics[i].need != MessageSource::Need::NamedAlone)
         report.sensors[topics[i].name] = run_->inbox().counts(i);
-    bool nothing = true;
+    bool silent = true;  // no answer, and no estimator that says why
     for (std::size_t i = 0; i < writers_.size(); ++i) {
       writers_[i]->close(run_->session().report(i));
       report.estimators[run_->session().names()[i]] = writers_[i]->report();
-      nothing &= writers_[i]->report().estimates == 0;
+      silent &= writers_[i]->report().estimates == 0 && writers_[i]->report().lane.failure.empty();
     }
-    if (const std::string waits_for = run_->waitsFor(); nothing && !waits_for.empty())
+    const std::string waits_for = run_->waitsFor();
+    if (silent && !waits_for.empty())
       throw std::runtime_error(fmt::format("{}: estimation never started: {}", file, waits_for));
+    if (silent)
+      throw std::runtime_error(
+          fmt::format("{}: no estimator gave an answer, as none could start from the measurements; "
+                      "look at enabled, datum and time_offset in the configuration",
+                      file));
     report.warnings = run_->warnings();
   }
 

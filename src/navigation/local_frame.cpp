@@ -12,7 +12,10 @@ namespace sas_motion {
 namespace {
 
 const Geodetic& checked(const Geodetic& datum) {
-  if (!(std::abs(datum.latitude_deg) <= 90) || !std::isfinite(datum.longitude_deg) || !std::isfinite(datum.altitude))
+  constexpr double full_turn_deg = 360,
+                   highest = 1e5;  // far beyond any vessel; what a slip of the pen gives lies beyond
+  if (!(std::abs(datum.latitude_deg) <= 90) || !(std::abs(datum.longitude_deg) <= full_turn_deg) ||
+      !(std::abs(datum.altitude) <= highest))
     throw std::invalid_argument(fmt::format("the datum {}, {}, {} is no place on Earth", datum.latitude_deg,
                                             datum.longitude_deg, datum.altitude));
   return datum;

@@ -23,8 +23,10 @@ StateRequest stateOf(const SetState::Request& request) {
   else
     throw std::invalid_argument(fmt::format("covariance has {} numbers; give 36, row-major, or 6 standard deviations",
                                             request.covariance.size()));
+  if (request.covariance.size() == 6 && !(Eigen::Map<const Vector<6>>(request.covariance.data()).minCoeff() > 0))
+    throw std::invalid_argument("covariance is not positive definite: a standard deviation is not above 0");
   if (!state.state.allFinite() || state.state.cwiseAbs().maxCoeff() > 1e9)
-    throw std::invalid_argument("state is not finite");
+    throw std::invalid_argument("state has a number that is not finite, or beyond 1e9");
   const double asymmetry = (P - P.transpose()).cwiseAbs().maxCoeff();
   if (!P.allFinite() || asymmetry > 1e-9 * P.cwiseAbs().maxCoeff() || P.llt().info() != Eigen::Success)
     throw std::invalid_argument("covariance is not symmetric and positive definite");

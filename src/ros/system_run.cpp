@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/system_run.hpp"
 
+#include <fmt/format.h>
+
 namespace sas_motion::ros_side {
 
 SystemRun::SystemRun(const MapSettings& settings, std::vector<MessageSource> sources, const tf2::BufferCore& transforms)
@@ -22,6 +24,17 @@ std::vector<ros::Subscriber> SystemRun::subscribe(ros::NodeHandle& node,
 void SystemRun::finish() {
   inbox_.finish();
   session().finish();
+}
+
+std::string SystemRun::lackOf(std::size_t source, const std::string& otherwise) const {
+  const std::string& topic = sources_[source].topic;
+  const MessageCounts& counts = inbox_.counts(source);
+  if (counts.messages > 0 && counts.disabled == counts.messages) return topic + " is disabled";
+  if (counts.unknown_frame > 0 && counts.unknown_frame + counts.unusable == counts.messages)
+    return fmt::format(
+        "{}: {} of {} messages have a frame_id without a transform to the base (frames.base; is there a /tf_static?)",
+        topic, counts.unknown_frame, counts.messages);
+  return fmt::format("{} {}", topic, otherwise);
 }
 
 void SystemRun::restart() {

@@ -65,6 +65,9 @@ class SystemRun {
                     [this, source, convert](const Message& message) { inbox_.receive(message, source, convert); });
   }
 
+  /// What is wrong with a source that gave no reading: it is disabled, its frame is unknown, or `otherwise`.
+  std::string lackOf(std::size_t source, const std::string& otherwise) const;
+
   OutputFrame frame_;
 
  private:

@@ -34,7 +34,7 @@ using nlohmann::json;
 struct Options {
   std::vector<std::string> bags;
   std::string out = "reprocessed", config;
-  std::vector<std::string> estimators{"kf", "robust_kf"};
+  std::vector<std::string> estimators;
   int jobs = 1;
   bool resume = false;
 };
@@ -132,6 +132,7 @@ void requireKnown(const std::vector<std::string>& estimators, const System& syst
 
 void run(Options options) {
   const auto system = openSystem(options.config);
+  if (options.estimators.empty()) options.estimators = system->preferred;
   for (const auto& sentence :
        replaceOldNames(options.estimators, [&](const auto& name) { return system->currentName(name); }))
     fmt::print(stderr, "reprocess: {}\n", sentence);
@@ -192,7 +193,8 @@ int main(int argc, char** argv) {
       "reprocess");
   app.add_option("BAG", options.bags, "bags to read")->required();
   app.add_option("-o,--output", options.out, "folder for the results (default: reprocessed)");
-  app.add_option("--estimators", options.estimators, "names, comma-separated (default: kf,robust_kf)")->delimiter(',');
+  app.add_option("--estimators", options.estimators, "names, comma-separated (default: the system's, as live)")
+      ->delimiter(',');
   app.add_option("--config", options.config, "configuration (YAML; default: built in)");
   app.add_option("-j,--jobs", options.jobs, "bags at once (default 1)")->check(CLI::Range(1, 1024));
   app.add_flag("--resume", options.resume,

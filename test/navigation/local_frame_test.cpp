@@ -56,8 +56,9 @@ TEST(LocalFrame, ADegreeOfLongitudeShrinksWithTheCosineOfLatitude) {
 
 TEST(LocalFrame, RefusesADatumThatIsNoPlaceOnEarth) {
   const double nan = std::nan("");
-  for (const Geodetic& bad : {Geodetic{91, 0, 0}, Geodetic{-90.01, 0, 0}, Geodetic{nan, 0, 0}, Geodetic{0, nan, 0},
-                              Geodetic{0, HUGE_VAL, 0}, Geodetic{0, 0, nan}})
+  for (const Geodetic& bad :
+       {Geodetic{91, 0, 0}, Geodetic{-90.01, 0, 0}, Geodetic{nan, 0, 0}, Geodetic{0, nan, 0}, Geodetic{0, HUGE_VAL, 0},
+        Geodetic{0, 0, nan}, Geodetic{0, 3.6e9, 0}, Geodetic{0, 0, 1e300}})
     EXPECT_THROW(LocalFrame{bad}, std::invalid_argument)
         << bad.latitude_deg << " " << bad.longitude_deg << " " << bad.altitude;
 }

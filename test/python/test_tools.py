@@ -163,3 +163,18 @@ def test_benchmark_refuses_a_suite(kind, tmp_path):
 @pytest.mark.parametrize("names, culprit", [("kf,kalmann", "kalmann"), ("", "''"), ("kf,kf", "twice")])
 def test_reprocess_refuses_estimators(names, culprit, simulated, tmp_path):
     refuse("reprocess", [simulated, "-o", tmp_path / "out", "--estimators", names], tmp_path / "out", "--estimators", culprit)
+
+
+def test_a_bag_that_starts_no_estimator_is_an_error_that_says_why(simulated, tmp_path):
+    for text, culprit in (("sensors: {heading: {enabled: false}}", "enabled"), ("sensors: {position: {time_offset: 100}}", "time_offset"),
+                          ("sensors: {position: {enabled: false}}", "gnss/fix is disabled"), ("frames: {base: no_such_link}", "without a transform")):
+        file = tmp_path / "config.yaml"
+        file.write_text(text)
+        done = toolbox.run("reprocess", simulated, "-o", tmp_path / "out", "--config", file)
+        assert done.returncode == 1 and str(simulated) in done.stderr and culprit in done.stderr, (text, done.stdout, done.stderr)
+        assert not list((tmp_path / "out").glob("*.bag"))
+
+
+def test_an_ins_runs_its_own_estimator_where_none_is_named(tmp_path):
+    done = toolbox.run("reprocess", tmp_path / "no.bag", "-o", tmp_path / "out", "--config", toolbox.write_yaml(tmp_path / "a.yaml", {"system": "ins_gps_dvl"}))
+    assert done.returncode == 1 and "no.bag" in done.stderr and "estimator" not in done.stderr

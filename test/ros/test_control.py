@@ -81,7 +81,7 @@ def test_set_state(sensors, filters, survey_messages):
     assert math.hypot(end.x - other.x, end.y - other.y) < 2000
 
 
-@pytest.mark.parametrize("change, said", [({"covariance": [1.0] * 5}, "5 numbers"), ({"covariance": [0.0] * 6}, "positive definite"), ({"covariance": [-1.0] * 36}, "positive definite"),
+@pytest.mark.parametrize("change, said", [({"covariance": [1.0] * 5}, "5 numbers"), ({"covariance": [0.0] * 6}, "positive definite"), ({"covariance": [-1.0] * 6}, "positive definite"), ({"covariance": [-1.0] * 36}, "positive definite"),
                                           ({"state": [math.nan] * 6}, "finite"), ({"estimator": "kalmann"}, "no such estimator"), ({"age": 25}, "older than the lag"),
                                           ({"age": -3600}, "far from")])
 def test_a_wrong_state_is_refused(change, said, sensors, filters, survey_messages):

@@ -95,7 +95,7 @@ def test_set_datum_moves_the_origin(sensors, filters, found):
     assert filters.call("set_datum", SetDatum, *DATUM).success
 
 
-@pytest.mark.parametrize("latitude, longitude", [(91, 10), (-90.5, 10), (math.nan, 10), (54, math.inf)])
+@pytest.mark.parametrize("latitude, longitude", [(91, 10), (-90.5, 10), (math.nan, 10), (54, math.inf), (54, 3.6e9)])
 def test_a_wrong_datum_is_refused(filters, latitude, longitude):
     answer = filters.call("set_datum", SetDatum, latitude, longitude, 0)
     assert not answer.success

@@ -30,7 +30,7 @@ Vector<M> average(const SigmaPoints<N, Count>& points, const Vector<M>& referenc
                   const Difference& difference) {
   Matrix<M, Count> offsets;
   for (int i = 0; i < Count; ++i) offsets.col(i) = difference(Vector<M>(landed.col(i)), reference);
-  const Vector<M> mean = reference + offsets * points.mean_weights;
+  Vector<M> mean = reference + offsets * points.mean_weights;
   for (int i = 0; i < Count; ++i) landed.col(i) = difference(Vector<M>(landed.col(i)), mean);
   return mean;
 }

@@ -67,9 +67,9 @@ std::string NavigationRun::waitsFor() const {
   const ins::AlignmentOptions& options = settings_.session.alignment;
   const std::string &imu = sources()[kImu].topic, &fix = sources()[kFix].topic, &velocity = sources()[kVelocity].topic;
   switch (session_.run().alignment().lack()) {
-    case Lack::InertialUnit: return fmt::format("{} has no message with rates and specific forces", imu);
+    case Lack::InertialUnit: return lackOf(kImu, "has no message with rates and specific forces");
     case Lack::Attitude: return fmt::format("{} has rates but no orientation, which the start needs", imu);
-    case Lack::Fix: return fmt::format("{} has no message with a fix", fix);
+    case Lack::Fix: return lackOf(kFix, "has no message with a fix");
     case Lack::FixAfterAttitude:
       return fmt::format("no fix on {} comes within {} s after an orientation on {} (start.max_age)", fix,
                          options.max_age, imu);

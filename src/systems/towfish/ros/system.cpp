@@ -137,8 +137,9 @@ class TowfishRun final : public SystemRun {
       const MessageCounts& counts = inbox().counts(source);
       return counts.messages - counts.unusable - counts.unknown_frame - counts.disabled;
     };
-    if (readings(kFix) == 0) return sources()[kFix].topic + " has no message with a fix";
-    if (readings(kImu) == 0) return sources()[kImu].topic + " has no message with an orientation or a turn rate";
+    if (!config_.sensor(Sensor::Position).enabled) return sources()[kFix].topic + " is disabled";
+    if (readings(kFix) == 0) return lackOf(kFix, "has no message with a fix");
+    if (readings(kImu) == 0) return lackOf(kImu, "has no message with an orientation or a turn rate");
     return "";
   }
 
