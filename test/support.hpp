@@ -29,6 +29,15 @@ std::string configErrorOf(const Run& run) {
   return "";
 }
 
+/// Expects that `run` throws a ConfigError that says all these words.
+template <class Run>
+void expectRefused(const Run& run, const std::vector<std::string>& words) {
+  const std::string error = configErrorOf(run);
+  EXPECT_FALSE(error.empty()) << "it was accepted";
+  for (const auto& word : words)
+    EXPECT_NE(error.find(word), std::string::npos) << "'" << word << "' is not in: " << error;
+}
+
 /// A random source that says its seed, so that a failure can be run again.
 inline Random announced(std::uint64_t seed) {
   std::cout << "seed " << seed << "\n";

@@ -11,6 +11,13 @@
 namespace sas_motion::ros_side {
 namespace {
 
+/// The covariance of independent errors. Throws std::invalid_argument where a standard deviation is none.
+Matrix<6> covarianceOf(const Vector<6>& sigmas) {
+  if (!(sigmas.array() > 0).all())
+    throw std::invalid_argument("covariance is not positive definite: a standard deviation is not above 0");
+  return sigmas.cwiseAbs2().asDiagonal();
+}
+
 /// The state that a request sets. Throws std::invalid_argument where it is none.
 StateRequest stateOf(const SetState::Request& request) {
   using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
@@ -19,12 +26,10 @@ StateRequest stateOf(const SetState::Request& request) {
   if (request.covariance.size() == 36)
     P = Eigen::Map<const RowMajor>(request.covariance.data());
   else if (request.covariance.size() == 6)
-    P = Eigen::Map<const Vector<6>>(request.covariance.data()).cwiseAbs2().asDiagonal();
+    P = covarianceOf(Eigen::Map<const Vector<6>>(request.covariance.data()));
   else
     throw std::invalid_argument(fmt::format("covariance has {} numbers; give 36, row-major, or 6 standard deviations",
                                             request.covariance.size()));
-  if (request.covariance.size() == 6 && !(Eigen::Map<const Vector<6>>(request.covariance.data()).minCoeff() > 0))
-    throw std::invalid_argument("covariance is not positive definite: a standard deviation is not above 0");
   if (!state.state.allFinite() || state.state.cwiseAbs().maxCoeff() > 1e9)
     throw std::invalid_argument("state has a number that is not finite, or beyond 1e9");
   const double asymmetry = (P - P.transpose()).cwiseAbs().maxCoeff();

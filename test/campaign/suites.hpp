@@ -44,12 +44,8 @@ inline Suite suiteOf(const std::string& text, const CampaignReaders& by = reader
 
 /// A suite that is refused with a message that has this word.
 inline void expectRefused(const std::string& text, const std::string& word) {
-  try {
-    suiteOf(text);
-    ADD_FAILURE() << text;
-  } catch (const ConfigError& error) {
-    EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-  }
+  SCOPED_TRACE(text);
+  testing::expectRefused([&] { suiteOf(text); }, {word});
 }
 
 /// A suite of one campaign on the paper's scenario, of `duration` seconds.

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "sas_motion/config/yaml_section.hpp"
 #include "sas_motion/imaging/focus_scene.hpp"
+#include "support.hpp"
 
 namespace sas_motion::imaging {
 namespace {
@@ -21,15 +20,9 @@ FocusSettings read(const std::string& text) {
   return readFocus((folder / "focus.yaml").string());
 }
 
-void expectRefused(const std::string& text, const std::vector<std::string>& parts) {
-  try {
-    read(text);
-    ADD_FAILURE() << text << " was accepted";
-  } catch (const ConfigError& error) {
-    for (const auto& part : parts)
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-          << "'" << part << "' is not in: " << error.what();
-  }
+void expectRefused(const std::string& text, const std::vector<std::string>& words) {
+  SCOPED_TRACE(text);
+  testing::expectRefused([&] { read(text); }, words);
 }
 
 TEST(FocusConfig, TheFileWithTheDefaultsIsTheDefaults) {

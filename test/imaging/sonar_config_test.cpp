@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
 #include "sas_motion/imaging/sonar.hpp"
+#include "support.hpp"
 
 namespace sas_motion::imaging {
 namespace {
@@ -13,15 +12,9 @@ SonarDescription read(const std::string& text) {
   return sonar;
 }
 
-void expectRefused(const std::string& text, const std::vector<std::string>& parts) {
-  try {
-    read(text);
-    ADD_FAILURE() << text << " was accepted";
-  } catch (const ConfigError& error) {
-    for (const auto& part : parts)
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-          << "'" << part << "' is not in: " << error.what();
-  }
+void expectRefused(const std::string& text, const std::vector<std::string>& words) {
+  SCOPED_TRACE(text);
+  testing::expectRefused([&] { read(text); }, words);
 }
 
 TEST(SonarConfig, TheFileWithTheDefaultsIsTheDefaults) {

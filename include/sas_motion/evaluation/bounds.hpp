@@ -65,7 +65,7 @@ class PosteriorBound {
   }
 
   const Matrix<N>& information() const { return J_; }
-  /// The bound on the covariance; nothing while some state is not known at all.
+  /// The bound on the covariance; nothing while there is no information on some state.
   std::optional<Matrix<N>> covariance() const {
     const Eigen::LLT<Matrix<N>> llt(J_);
     if (llt.info() != Eigen::Success) return std::nullopt;
@@ -80,9 +80,9 @@ class PosteriorBound {
     return llt.solve(Matrix<N>::Identity());
   }
 
-  /// With J = U^T U and a row [-W F, W] for each truth, W^T W = factor Q^{-1} over the number of truths, the QR
-  /// factorization of [U, 0; -W F, W] eliminates the old state; the last block R22 has R22^T R22 = D22 - D21 (J +
-  /// D11)^{-1} D12.
+  /// One step in square-root form, by QR. The rows are [U, 0], where J = U^T U, and for each truth [-W F, W], where
+  /// W^T W = factor Q^{-1} / (number of truths). Their R has the last block R22, and the new information is
+  /// R22^T R22 = D22 - D21 (J + D11)^{-1} D12.
   void stepByQr(const std::vector<Transition<N>>& truths, double factor) {
     const Eigen::Index count = static_cast<Eigen::Index>(truths.size());
     Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(N * (count + 1), Eigen::Index{2} * N);
@@ -123,13 +123,13 @@ class MeanBound {
     ++count_;
   }
 
-  /// The bound on the root mean square of the norm of these states' errors; nothing while one was not known at all.
+  /// The bound on the root mean square of the norm of these states' errors; nothing where one has none.
   std::optional<double> rmse(const std::vector<int>& states) const {
     double square = 0;
     for (const int state : states) square += sum_(state) / static_cast<double>(count_);
     return known_ && count_ > 0 ? std::optional<double>(std::sqrt(square)) : std::nullopt;
   }
-  /// The same of groups of states by name; empty where one was not known at all.
+  /// rmse() of each named group of states; empty where there is no information on some state.
   std::vector<std::pair<std::string, double>> rmses(
       const std::vector<std::pair<std::string, std::vector<int>>>& groups) const {
     std::vector<std::pair<std::string, double>> bounds;

@@ -21,11 +21,11 @@ class MeasurementInformation {
   /// Throws std::invalid_argument for two multipath laws in one list.
   explicit MeasurementInformation(const NoiseMix& mix);
 
-  /// Of a reading that is not known to be bad, at sigma 1.
+  /// Information of a reading of sigma 1, where nothing is known of its own noise but the law.
   double factor() const { return factor_; }
   /// Whether the bound assumes side information.
   bool genie() const { return genie_; }
-  /// Of one reading, from the variance that it was drawn with and the time since the start [s].
+  /// Information of one reading, given the variance it was drawn with and the time since the start [s].
   double of(double true_variance, double time) const;
 
  private:
@@ -41,8 +41,8 @@ struct ProcessInformation {
   bool genie = false;  ///< the bound assumes that the variance of each step is known: multiply Q by it
 };
 
-/// Of `states` states over a step of `step` seconds. Contamination that is drawn for each state and step, or once a
-/// step for all, counts by its density; what lasts for longer gets a genie.
+/// Information of the process noise of so many `states` over a `step` [s]. Contamination drawn anew at each step is
+/// counted by its density; of contamination that lasts longer the bound assumes that the variance is known (genie).
 ProcessInformation processInformation(const NoiseMix& mix, int states, double step);
 
 }  // namespace sas_motion

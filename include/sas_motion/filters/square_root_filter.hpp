@@ -15,7 +15,8 @@ namespace sas_motion {
 /// unscented points the SR-UKF. It is equivalent to SigmaPointFilter and also works with a singular covariance.
 /// [Merwe2001]
 ///
-/// With weights that are not negative a prediction only adds squares, and a failed downdate can be replaced by a sum.
+/// Where all weights are at least 0, a prediction is one QR factorization, without downdates, and a downdate that fails
+/// in an update can be replaced by a factorization of the sum.
 /// Noise is additive and given by a lower triangular root with a diagonal that is not negative. Every update forms new
 /// points.
 template <int N, int Count, class Points = SigmaPoints<N, Count>>

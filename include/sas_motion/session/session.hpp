@@ -33,6 +33,20 @@ struct Tuning {
   double gated_kf_probability = 0.99;
 };
 
+/// The tuning that a system's configuration has.
+template <class Config>
+Tuning tuningOf(const Config& config) {
+  return {config.filters.robust_kf.loss, config.fixed_lag.loss, config.filters.gated_kf.probability};
+}
+
+/// Puts a tuning into a system's configuration.
+template <class Config>
+void tune(Config& config, const Tuning& tuning) {
+  config.filters.robust_kf.loss = tuning.robust_kf;
+  config.fixed_lag.loss = tuning.fixed_lag;
+  config.filters.gated_kf.probability = tuning.gated_kf_probability;
+}
+
 /// What became of one estimator of a session.
 struct LaneReport {
   std::uint64_t measurements = 0;  ///< that it was given

@@ -125,19 +125,13 @@ std::string NavigationSession::setState(std::size_t lane, const OutputFrame& fra
 }
 
 void NavigationSession::configure(const Tuning& tuning) {
-  options_.config.filters.robust_kf.loss = tuning.robust_kf;
-  options_.config.filters.gated_kf.probability = tuning.gated_kf_probability;
-  options_.config.fixed_lag.loss = tuning.fixed_lag;
+  tune(options_.config, tuning);
   live_->configure(options_.config);
 }
 
 LaneReport NavigationSession::report(std::size_t index) const {
   const Lane& lane = run().lanes()[index];
   return {lane.readings, lane.seconds, lane.estimator ? lane.estimator->failure() : ""};
-}
-
-Tuning tuningOf(const Config& config) {
-  return {config.filters.robust_kf.loss, config.fixed_lag.loss, config.filters.gated_kf.probability};
 }
 
 }  // namespace sas_motion::ins

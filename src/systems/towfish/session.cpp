@@ -85,16 +85,10 @@ std::string TowfishSession::setState(std::size_t index, const OutputFrame&, cons
 }
 
 void TowfishSession::configure(const Tuning& tuning) {
-  config_.filters.robust_kf.loss = tuning.robust_kf;
-  config_.fixed_lag.loss = tuning.fixed_lag;
-  config_.filters.gated_kf.probability = tuning.gated_kf_probability;
+  tune(config_, tuning);
   for (auto& lane : lanes_) lane.estimator->configure(config_);
 }
 
 LaneReport TowfishSession::report(std::size_t lane) const { return lanes_[lane].report; }
-
-Tuning tuningOf(const Config& config) {
-  return {config.filters.robust_kf.loss, config.fixed_lag.loss, config.filters.gated_kf.probability};
-}
 
 }  // namespace sas_motion::towfish

@@ -43,7 +43,4 @@ class NavigationSession final : public sas_motion::Session {
   std::vector<OutputRate> settled_rates_;  // by lane
 };
 
-/// What may be changed of a configuration while estimators run.
-Tuning tuningOf(const Config& config);
-
 }  // namespace sas_motion::ins

@@ -41,8 +41,8 @@ class FilterHistory {
 
   FilterHistory(const Model& model, Motion motion) : model_(model), motion_(std::move(motion)) {}
 
-  /// The filter for what comes from now on, and for how long a turn rate is believed [s]. Call it before anything
-  /// comes.
+  /// Sets the filter for later measurements, and how long a turn rate holds after its stamp [s]. Must be called
+  /// before the first measurement.
   void use(std::shared_ptr<const Filter> filter, double input_hold);
 
   const std::deque<Entry>& entries() const { return entries_; }

@@ -38,7 +38,4 @@ class TowfishSession final : public Session {
   std::vector<Measurement> unfed_;
 };
 
-/// What may be changed of a configuration while estimators run.
-Tuning tuningOf(const Config& config);
-
 }  // namespace sas_motion::towfish
