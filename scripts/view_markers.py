@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The sas_motion authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""For RViz: each estimator's track as nav_msgs/Path (NAME/path), and the fixes it did not believe as red spheres (NAME/rejected_fixes)."""
+"""For RViz: each estimator's track as nav_msgs/Path (NAME/path), and the fixes it rejected or down-weighted as red spheres (NAME/rejected_fixes)."""
 import argparse
 
 import rospy

@@ -7,7 +7,7 @@ DIVERGED = 50  # times the estimator's median on clean data
 
 
 def clean_medians(rmse, clean, names):
-    """Returns {estimator: its median RMSE under the clean law}; infinite where it has none, so that nothing is told by it."""
+    """Returns {estimator: its median RMSE under the clean law}; infinite where it has none, so that nothing is compared with it."""
     found = {name: rmse[clean, name][np.isfinite(rmse[clean, name])] for name in names}
     return {name: np.median(values) if values.size else np.inf for name, values in found.items()}
 
@@ -21,5 +21,5 @@ def kept_runs(results, rmse, clean_median):
 
 def lockouts(results):
     """Returns how many runs were sure of a wrong place, or None where nobody looked."""
-    told = [result['locked_out'] for result in results if isinstance(result.get('locked_out'), bool)]
-    return sum(told) if told else None
+    known = [result['locked_out'] for result in results if isinstance(result.get('locked_out'), bool)]
+    return sum(known) if known else None

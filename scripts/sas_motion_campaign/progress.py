@@ -10,7 +10,7 @@ FORMAT = '{desc}: {percentage:3.0f}%|{bar}| {n_fmt}/{total_fmt} runs [{elapsed},
 
 
 class Progress:
-    """Counts runs; says nothing where the output is no terminal."""
+    """Counts runs; prints nothing where the output is no terminal."""
 
     def __init__(self, plan, missing):
         self.durations = plan.durations()

@@ -9,7 +9,7 @@ AGAINST = ('kf', 'oracle_kf', 'bayes_reference', 'ckf', 'oracle_ckf')
 
 
 def informed(name):
-    """Tells whether an estimator is told what no other knows: which measurements are outliers, or their law."""
+    """Returns whether an estimator is an oracle: it gets the outliers' labels, or their law."""
     return name.startswith('oracle') or name == 'bayes_reference'
 
 
@@ -40,7 +40,7 @@ def quotient(above, below):
 
 
 def least(law, names, rmse, keep):
-    """Returns the estimator with the least RMS error among those that are told nothing and lost no run, or else fewest."""
+    """Returns the estimator with the least RMS error among those that are no oracles and lost no run, or else fewest."""
     tried = [(int(np.sum(~keep[law, name])), np.sqrt(np.mean(rmse[law, name][keep[law, name]] ** 2)), name)
              for name in names if not informed(name) and keep[law, name].any()]
     return min(tried)[2] if tried else None

@@ -35,7 +35,7 @@ class Entry(NamedTuple):
 
 
 def read_log(path: str, date: Optional[datetime.date], progress: Callable) -> tuple:
-    """(readings, Counts) of a file; progress is told the bytes of each line. Raises LookupError with the reason."""
+    """(readings, Counts) of a file; progress gets the bytes of each line. Raises LookupError with the reason."""
     counts = Counts.none()
     entries = without_lost_checksums(read_entries(path, counts, progress), counts)
     counts.sentences.update(e.sentence.name for e in entries)

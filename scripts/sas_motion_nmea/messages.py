@@ -25,7 +25,7 @@ def stamp(time: int) -> genpy.Time:
 
 
 def nav_sat_fix(reading: Reading) -> NavSatFix:
-    """A fix, or a NO_FIX with NaN where the receiver told no place; altitude is NaN where unknown."""
+    """A fix, or a NO_FIX with NaN where the receiver has no place; altitude is NaN where unknown."""
     fix, message = reading.value, NavSatFix()
     message.header.frame_id = "gnss_link"
     message.status.status = NavSatStatus.STATUS_FIX if fix.valid else NavSatStatus.STATUS_NO_FIX

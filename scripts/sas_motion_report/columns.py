@@ -101,7 +101,7 @@ def quantity(x, missing='–'):
 
 
 def percent(fraction, missing='–'):
-    """Returns a fraction as percent, 0.5 short of 100 still told from it."""
+    """Returns a fraction as percent, 0.5 short of 100 is still shown as less."""
     if not finite(fraction):
         return missing
     return f'{100 * fraction:.0f}' if 0.005 <= fraction <= 0.99 or fraction in (0, 1) else f'{100 * fraction:.1f}'

@@ -50,7 +50,7 @@ def closer(worse, better):
 
 
 def aperture(scored):
-    """States the error that focusing feels."""
+    """States the position error that blurs an image."""
     errors = [(e['aperture']['across'], name, e['aperture']) for name, e in scored if finite(dig(e, 'aperture', 'across'))]
     if not errors:
         return None
@@ -61,7 +61,7 @@ def aperture(scored):
 
 
 def consistency(scored):
-    """States whose position covariance can be believed, from NEES, or from NIS without truth."""
+    """States whose position covariance is right, from NEES, or from NIS without truth."""
     groups = {-1: [], 0: [], 1: []}
     for name, e in scored:
         band = dig(e, 'nees', 'position') or dig(e, 'nis', 'position')
@@ -87,7 +87,7 @@ def sigmas(band):
 
 
 def rejection(scored):
-    """States how well outliers were told from good measurements."""
+    """States how well outliers were separated from good measurements."""
     tallies = [(name, e['outliers']['all']) for name, e in scored if finite(dig(e, 'outliers', 'all', 'recall'))]
     if not tallies:
         return None

@@ -14,7 +14,7 @@ from .images import images
 FIGURES = [
     ('track', 'Track', 'Truth, every estimator, the GNSS fixes, and what the chosen estimator made of them. Far outliers may lie beyond the edge; double-click to see all.'),
     ('errors', 'Errors', 'Estimate minus truth, and ±3σ of the stated covariance. Shaded: not scored, or without a position fix.'),
-    ('weights', 'Weights', 'How much the estimator believed each measurement; below one half it counts as set aside.'),
+    ('weights', 'Weights', 'The weight that the estimator gave each measurement; below one half it counts as set aside.'),
     ('nis', 'Normalised innovations squared', 'Of a consistent filter 95 % lie in the band.'),
 ]
 

@@ -24,7 +24,7 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Bytes that are taken from the front. They end where they end, whatever a length among them says.
+/// Bytes that are taken from the front; never more than there are, whatever a length among them states.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -102,7 +102,7 @@ struct MessageHead {
   ros::Time time;
 };
 
-/// What the header of a record in a chunk says; nothing where it is a connection's.
+/// The header of a record in a chunk; nothing where it is a connection's.
 inline std::optional<MessageHead> messageHead(Bytes header) {
   std::optional<Bytes> op, connection, time;
   forEachField(header, [&](std::string_view name, Bytes value) {

@@ -30,7 +30,7 @@ struct BagMessage {
 /// Among messages of equal time the order is rosbag::View's with up to 16 connections: first the connection whose last
 /// message was read last, then the highest id. (With more, View's order among them is that of an unstable sort.)
 ///
-/// All functions throw std::runtime_error: one sentence that names the file and says what to do.
+/// All functions throw std::runtime_error: one sentence that names the file and what to do.
 class BagReader {
  public:
   explicit BagReader(const std::string& path);

@@ -46,7 +46,7 @@ class BagWriter {
     std::uint32_t offset;
   };
   struct Connection {
-    std::string record;        // what the bag says of it
+    std::string record;        // its record in the bag
     std::string message_head;  // of each of its messages; its time and size are filled in
     std::vector<IndexEntry> in_chunk;
   };

@@ -18,7 +18,7 @@ struct BagConnection {
   std::map<std::string, std::string> header;  ///< also message_definition, callerid and latching, where there
 };
 
-/// What a bag's index says of a chunk.
+/// The entry of a chunk in a bag's index.
 struct ChunkInfo {
   std::uint64_t position = 0;  ///< in the file [byte]
   ros::Time begin, end;        ///< of its first and last message

@@ -10,7 +10,7 @@
 namespace sas_motion::ros_side {
 
 /// Unpacks a chunk of a bag into `unpacked`, whose memory is used again. `compression` is bz2 or lz4, as the chunk's
-/// header has it; `size` is what the header says the chunk unpacks to, and no memory is taken on its word alone. Throws
+/// header has it; `size` is the unpacked size that the header states, and no memory is taken by it alone. Throws
 /// bag_format::Error.
 void decompress(std::string_view compression, bag_format::Bytes packed, std::size_t size,
                 std::vector<std::uint8_t>& unpacked);

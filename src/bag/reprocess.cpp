@@ -101,7 +101,7 @@ class BagRun {
     for (std::size_t i = 0; i < topics.size(); ++i)
       if (!topics[i].topic.empty() || topics[i].need != MessageSource::Need::NamedAlone)
         report.sensors[topics[i].name] = run_->inbox().counts(i);
-    bool silent = true;  // no answer, and no estimator that says why
+    bool silent = true;  // no answer, and no reason from any estimator
     for (std::size_t i = 0; i < writers_.size(); ++i) {
       writers_[i]->close(run_->session().report(i));
       report.estimators[run_->session().names()[i]] = writers_[i]->report();

@@ -29,7 +29,7 @@ struct ReprocessReport {
 
 /// Runs estimators over a bag and writes a bag of the same name into `folder`: the input's messages, and each
 /// estimator's estimates and audit; beside it a TUM file for each estimator. Throws std::runtime_error naming the file
-/// or topic, also where nothing could be estimated. `progress` is told the seconds of data done.
+/// or topic, also where nothing could be estimated. `progress` gets the seconds of data done.
 ReprocessReport reprocess(const std::string& input, const std::string& folder,
                           const std::vector<std::string>& estimators, const System& system,
                           const std::function<void(double)>& progress);

@@ -20,7 +20,7 @@ struct ScorerOptions {
   bool square_by_degree = false;  ///< divides each square by its degrees of freedom, else their mean: other rounding
 };
 
-/// Collects the errors and audits of one estimator over one run, and sums them up. It knows no state: a system computes
+/// Collects the errors and audits of one estimator over one run, and sums them up. It needs no state: a system computes
 /// its errors, names them and hands them over.
 class EstimatorScorer {
  public:

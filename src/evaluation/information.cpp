@@ -29,7 +29,7 @@ MeasurementInformation::MeasurementInformation(const NoiseMix& mix) {
     if (law.kind == Kind::Contaminated) density.contaminate(law.epsilon, law.K);
     if (law.kind == Kind::StudentT) density.studentise(law.nu);
     if (law.kind == Kind::Multipath && !spells_ &&
-        !density.delay(law.probability, law.mean))  // beside spells, the genie tells it too
+        !density.delay(law.probability, law.mean))  // beside spells, the genie knows it too
       throw std::invalid_argument("MeasurementInformation: a list of laws can have one multipath");
     if (law.kind == Kind::Correlated) density.scale(std::sqrt(1 - law.share));
     if (law.kind == Kind::Varying) varying_.push_back(law);
@@ -40,7 +40,7 @@ MeasurementInformation::MeasurementInformation(const NoiseMix& mix) {
 }
 
 double MeasurementInformation::of(double true_variance, double time) const {
-  if (spells_ && true_variance >= kSaysNothing) return 0;
+  if (spells_ && true_variance >= kNoInformation) return 0;
   double factor = factor_;
   for (const auto& law : varying_) factor /= varyingSigma(law, time) * varyingSigma(law, time);
   return factor;

@@ -23,7 +23,7 @@ void learn(LearnedInfluence& row, const Influence& influence, double t) {
   const auto average = [&row](double& sum, double value) { sum += (value - sum) / row.readings; };
   const double square = (1 + t) * influence.psi * influence.psi;
   const double gain = (1 + t) * influence.slope / (1 + t * influence.slope);
-  average(row.believed, influence.weight * square);
+  average(row.weighted, influence.weight * square);
   average(row.clipped, (1 - influence.weight) * square);
   average(row.gain, gain * gain);
 }
@@ -36,7 +36,7 @@ double noiseThrough(const LearnedInfluence& row, double t, double s) {
     s *= kLargest / t;
     t = kLargest;
   }
-  const double square = std::min(row.believed, (1 + s) / (1 + t)) + row.clipped;  // accepted readings do not increase R
+  const double square = std::min(row.weighted, (1 + s) / (1 + t)) + row.clipped;  // accepted readings do not increase R
   return std::max(row.gain * row.gain, (1 + t) * square - s * row.gain);  // and no reading is better than a good one
 }
 

@@ -10,12 +10,20 @@ namespace {
 constexpr int kBefore = Interpolator::kTaps / 2 - 1;  // taps before the sample at floor(position)
 constexpr double kBeta = 7.6;                         // about 78 dB
 
+/// I_0 by its series, whose terms are all positive. The standard library's calls lgamma, which writes a global variable
+/// and so must not be called by two threads.
+double besselI0(double x) {
+  double sum = 1, term = 1;
+  for (int k = 1; term > 1e-17 * sum; ++k) sum += term *= 0.25 * x * x / (k * k);
+  return sum;
+}
+
 }  // namespace
 
 double kaiserSinc(double x, int taps, double beta) {
   const double u = x / (0.5 * taps);
   if (std::abs(u) >= 1) return 0;
-  return sinc(x) * std::cyl_bessel_i(0.0, beta * std::sqrt(1 - u * u)) / std::cyl_bessel_i(0.0, beta);
+  return sinc(x) * besselI0(beta * std::sqrt(1 - u * u)) / besselI0(beta);
 }
 
 double Interpolator::kernel(double x) { return kaiserSinc(x, kTaps, kBeta); }

@@ -13,7 +13,7 @@ namespace {
 
 const Geodetic& checked(const Geodetic& datum) {
   constexpr double full_turn_deg = 360,
-                   highest = 1e5;  // far beyond any vessel; what a slip of the pen gives lies beyond
+                   highest = 1e5;  // far beyond any vessel; a wrong unit is beyond it
   if (!(std::abs(datum.latitude_deg) <= 90) || !(std::abs(datum.longitude_deg) <= full_turn_deg) ||
       !(std::abs(datum.altitude) <= highest))
     throw std::invalid_argument(fmt::format("the datum {}, {}, {} is no place on Earth", datum.latitude_deg,

@@ -22,7 +22,7 @@ void scale(NoiseSample& sample, double sigma) {
 
 void shift(NoiseSample& sample, double bias) {
   sample.value += bias;
-  sample.variance = std::max(sample.variance, kSaysNothing);
+  sample.variance = std::max(sample.variance, kNoInformation);
   sample.outlier = true;
 }
 

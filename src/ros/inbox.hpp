@@ -23,7 +23,7 @@ class SensorFrames {
   SensorFrames(const tf2::BufferCore& transforms, std::string base_frame)
       : transforms_(transforms), base_frame_(std::move(base_frame)) {}
 
-  /// The pose of a frame in the base frame, or nothing while tf knows none.
+  /// The pose of a frame in the base frame, or nothing while tf has none.
   std::optional<Transform> find(const std::string& frame_id) const;
 
  private:

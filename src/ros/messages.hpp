@@ -51,7 +51,7 @@ inline Eigen::Quaterniond orientationOf(const Matrix<3>& C_map_body) {
   return Eigen::Quaterniond(C_map_body * bodyFromRosBody());
 }
 
-/// True where a fix says where it is: has a fix, and coordinates on Earth.
+/// True where a message has a fix, with coordinates on Earth.
 bool hasPosition(const sensor_msgs::NavSatFix& fix);
 Geodetic geodeticOf(const sensor_msgs::NavSatFix& fix);
 /// A fix at a place, its covariance unknown.

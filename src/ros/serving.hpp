@@ -20,7 +20,7 @@ void readParameter(const ros::NodeHandle& own, const std::string& key, T& value)
   if (own.hasParam(key) && !own.getParam(key, value)) throw ConfigError(fmt::format("~{} is of the wrong type", key));
 }
 
-/// Lets `diagnose` speak on /diagnostics as `name`; two nodelets of one manager are told apart.
+/// Publishes what `diagnose` writes on /diagnostics as `name`; two nodelets of one manager have two names.
 template <class Server>
 std::unique_ptr<diagnostic_updater::Updater> makeUpdater(
     const ros::NodeHandle& node, const ros::NodeHandle& own, const std::string& name, Server* server,

@@ -55,7 +55,7 @@ class SystemRun {
   virtual std::vector<std::pair<std::string, std::string>> details() const { return {}; }
 
  protected:
-  /// Says what a source's messages become: `take(message)`.
+  /// Sets what a source's messages become: `take(message)`.
   template <class Message, class Take>
   void listen(std::size_t source, const Take& take);
   /// The same of a sensor that sits somewhere: `convert(message, T_base_sensor)`, see Inbox::receive().

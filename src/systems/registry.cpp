@@ -39,7 +39,7 @@ void record(const SimulationRequest& request, ros_side::BagOutput& bag, const Si
   recorder.record([&](double seconds) { progress(scenario.duration, seconds); });
 }
 
-/// The row of the system that `yaml` says, of those that have what `member` is.
+/// The row of the system that `yaml` names, of those that have what `member` is.
 template <class Member>
 const SystemRow& rowOf(YamlSection& yaml, std::string name, Member SystemRow::*member) {
   yaml.text("system", name);

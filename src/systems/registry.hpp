@@ -17,12 +17,12 @@ struct SimulationRequest {
   std::uint64_t seed = 1;
   double duration = 0;  ///< instead of the scenario's; 0: the scenario's [s]
 };
-/// Told how long the simulation is, and then of seconds as they pass.
+/// Gets the length of the simulation first, and then seconds as they pass.
 using SimulationProgress = std::function<void(double total, double passed)>;
 
 /// One system: everything that a tool or a nodelet needs to know of it. What a system has not is empty.
 struct SystemRow {
-  const char* name;  ///< as `system:` in a file says it
+  const char* name;  ///< as in `system:` of a file
   CampaignReader campaign;
   std::unique_ptr<ros_side::System> (*open)(YamlSection& config);
   void (*simulate)(const SimulationRequest& request, ros_side::BagOutput& bag, const SimulationProgress& progress);

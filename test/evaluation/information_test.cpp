@@ -99,7 +99,7 @@ TEST(MeasurementInformation, AGenieCallsSpellsBadAndSaysSo) {
   const auto burst = law(Kind::Burst, {{&NoiseLaw::rate, 0.01}, {&NoiseLaw::length, 5}, {&NoiseLaw::K, 20}});
   const MeasurementInformation information(std::vector<NoiseLaw>{testing::contaminated(0.1, 10), burst});
   EXPECT_TRUE(information.genie());
-  EXPECT_EQ(information.of(kSaysNothing, 3), 0);
+  EXPECT_EQ(information.of(kNoInformation, 3), 0);
   EXPECT_EQ(information.of(100, 3), factor(testing::contaminated(0.1, 10)));  // an outlier is not told
   const MeasurementInformation varying(law(Kind::Varying, {{&NoiseLaw::period, 10}, {&NoiseLaw::factor, 3}}));
   EXPECT_TRUE(varying.genie());

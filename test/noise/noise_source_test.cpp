@@ -117,7 +117,7 @@ TEST(NoiseSource, StepsAndRampsAreBiasedBetweenTheirTimesOnly) {
     EXPECT_NEAR(step[i].value - plain[i].value, stepped ? -3 : 0, 1e-12);
     EXPECT_NEAR(ramp[i].value - plain[i].value, ramped ? 2 * (time - 60.05) : 0, 1e-9);
     EXPECT_EQ(step[i].outlier, stepped);
-    EXPECT_EQ(ramp[i].variance, ramped ? kSaysNothing : 1);
+    EXPECT_EQ(ramp[i].variance, ramped ? kNoInformation : 1);
   }
 }
 
@@ -140,7 +140,7 @@ TEST(NoiseSource, MultipathOnlyMakesLonger) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!samples[i].outlier) continue;
     ASSERT_GE(samples[i].value, plain[i].value);
-    ASSERT_EQ(samples[i].variance, kSaysNothing);
+    ASSERT_EQ(samples[i].variance, kNoInformation);
     excess += samples[i].value - plain[i].value;
     ++count;
   }

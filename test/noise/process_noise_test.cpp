@@ -72,7 +72,7 @@ TEST(ProcessNoise, ManoeuvresMakeAllNoiseLargerForTheirLength) {
 TEST(ProcessNoise, AnOracleMakesOfTheToldVariancesTheCovarianceOfTheDraw) {
   Random random = testing::announced(4);
   const Matrix<6> Q = testing::randomCovariance<6>(random);
-  EXPECT_LT(testing::relativeDifference(toldCovariance<6>(Q, Vector<6>::Constant(100)), 100 * Q), 1e-14);
+  EXPECT_LT(testing::relativeDifference(covarianceWith<6>(Q, Vector<6>::Constant(100)), 100 * Q), 1e-14);
   const Vector<6> variance = (Vector<6>() << 1, 100, 1, 1, 4, 0.25).finished();
   Matrix<6> sample = Matrix<6>::Zero();
   const Matrix<6> L = Q.llt().matrixL();
@@ -80,7 +80,7 @@ TEST(ProcessNoise, AnOracleMakesOfTheToldVariancesTheCovarianceOfTheDraw) {
     const Vector<6> drawn = L * testing::randomMatrix<6>(random).cwiseProduct(variance.cwiseSqrt());
     sample += drawn * drawn.transpose() / kSteps;
   }
-  EXPECT_LT(testing::relativeDifference(toldCovariance<6>(Q, variance), sample), 0.03);
+  EXPECT_LT(testing::relativeDifference(covarianceWith<6>(Q, variance), sample), 0.03);
 }
 
 TEST(ProcessNoise, HasRoomForSixStates) {

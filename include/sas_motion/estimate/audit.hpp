@@ -44,7 +44,7 @@ Audit auditOf(Stamp stamp, std::string_view sensor, const Update<Belief, M>& upd
   return audit;
 }
 
-/// An audit that says that a measurement was not fused.
+/// The audit of a measurement that was not fused.
 inline Audit refusal(Stamp stamp, std::string_view sensor, int rows, Verdict verdict, std::string_view reason) {
   Audit audit{stamp, sensor, rows, verdict};
   audit.reason = reason;

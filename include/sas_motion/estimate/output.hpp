@@ -9,8 +9,8 @@
 
 namespace sas_motion {
 
-/// What an estimator has to say since it was last asked, each in time order. The caller clears it. An estimator says it
-/// in its system's own state, a session in the solutions that every system has in common.
+/// The new answers of an estimator, each in time order; the caller clears them. An estimator writes its system's own
+/// state, a session the solutions that every system has in common.
 template <class State>
 struct OutputOf {
   std::vector<State> solutions;

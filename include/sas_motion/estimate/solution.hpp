@@ -20,7 +20,7 @@ struct Current {
   Matrix<2> covariance = Matrix<2>::Zero();    ///< [m^2/s^2]
 };
 
-/// Where the base is at a stamp, how it lies and moves, as an estimator of any system says it.
+/// Position, attitude and velocity of the base at a stamp, the answer of an estimator of any system.
 ///
 /// Axes are those of REP-103: the map's east, north, up; the base's forward, port, up. A covariance of zeros is not
 /// known; kNotEstimated on its diagonal marks what the estimator does not estimate.
@@ -40,7 +40,7 @@ struct Solution {
   bool has_heading() const { return pose_covariance(5, 5) < kNotEstimated; }
   bool has_attitude() const { return pose_covariance(3, 3) < kNotEstimated; }  ///< roll and pitch too
   bool has_velocity() const { return twist_covariance(0, 0) < kNotEstimated; }
-  /// Whether the estimator says how far its position may be off.
+  /// Whether the position has a covariance.
   bool has_covariance() const { return pose_covariance(0, 0) > 0; }
 };
 

@@ -12,7 +12,7 @@ namespace sas_motion {
 /// unclipped readings, which are 1 or 0 whatever the leverage.
 struct LearnedInfluence {
   double readings = 0;  ///< number of readings in the averages
-  double believed = 1;  ///< square of the influence, times the weight
+  double weighted = 1;  ///< square of the influence, times the weight
   double clipped = 0;   ///< square of the influence, times 1 - weight
   double gain = 1;      ///< square of the gain on a change of the reading
 };

@@ -27,7 +27,7 @@
 
 namespace sas_motion {
 
-/// The names that withFilter() knows. It also knows robust_kf_LOSS, e.g. robust_kf_cauchy.
+/// The names that withFilter() accepts. It also accepts robust_kf_LOSS, e.g. robust_kf_cauchy.
 constexpr std::array<const char*, 7> kFilterNames{"kf",   "gated_kf",   "robust_kf", "student_t_kf",
                                                   "mckf", "mixture_kf", "bank_kf"};
 

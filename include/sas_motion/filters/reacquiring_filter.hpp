@@ -12,7 +12,7 @@
 namespace sas_motion {
 
 /// How long a row of a sensor has been rejected, and whether its readings agree with each other.
-struct Disbelief {
+struct RejectionRecord {
   int count = 0;       ///< consecutive readings that were down-weighted or rejected
   int agreements = 0;  ///< number of them that agreed with the one before
   double since = 0;    ///< time of the first [s]
@@ -24,7 +24,7 @@ template <class Belief>
 struct WatchedBelief {
   static constexpr int kMaxRows = 4;
   Belief state;
-  std::array<std::array<Disbelief, kMaxRows>, kMaxSources> disbelief{};
+  std::array<std::array<RejectionRecord, kMaxRows>, kMaxSources> rejections{};
 };
 
 template <class Belief>
@@ -50,44 +50,44 @@ class ReacquiringFilter {
   }
 
   Belief predict(const Belief& belief, const Transition<N>& transition) const {
-    return {filter_.predict(belief.state, transition), belief.disbelief};
+    return {filter_.predict(belief.state, transition), belief.rejections};
   }
 
   template <int M>
   Update<Belief, M> update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
     static_assert(M <= Belief::kMaxRows);
     auto inner = filter_.update(prior.state, z);
-    auto disbelief = prior.disbelief;
+    auto rejections = prior.rejections;
     auto widened = prior.state;
     bool reacquire = false;
     for (int row = 0; row < M && inner.verdict != Verdict::Invalid; ++row) {
-      auto& doubt = disbelief[static_cast<std::size_t>(z.source)][static_cast<std::size_t>(row)];
-      if (!lockedOut(doubt, inner.weights(row), inner.innovation(row), z.R(row, row), z.time)) continue;
-      doubt = {};
+      auto& record = rejections[static_cast<std::size_t>(z.source)][static_cast<std::size_t>(row)];
+      if (!lockedOut(record, inner.weights(row), inner.innovation(row), z.R(row, row), z.time)) continue;
+      record = {};
       const double variance = inner.innovation(row) * inner.innovation(row) - inner.S(row, row);
       addCovariance<N>(widened, widening<N>(ownCovariance(widened), z.H.row(row).transpose(), variance));
       reacquire = true;
     }
     if (reacquire) inner = filter_.update(widened, z);
-    return {{inner.belief, disbelief}, inner.innovation, inner.S,      inner.nis, inner.weights,
-            inner.iterations,          inner.converged,  inner.verdict};
+    return {{inner.belief, rejections}, inner.innovation, inner.S,      inner.nis, inner.weights,
+            inner.iterations,           inner.converged,  inner.verdict};
   }
 
  private:
   /// Updates the record of one row. Returns true where its readings are to be accepted again.
-  bool lockedOut(Disbelief& doubt, double weight, double innovation, double R, double time) const {
+  bool lockedOut(RejectionRecord& record, double weight, double innovation, double R, double time) const {
     if (weight >= kDownWeighted) {
-      doubt = {};
+      record = {};
       return false;
     }
-    if (doubt.count == 0) doubt.since = time;
-    const double step = innovation - doubt.last_innovation;
-    const bool agrees = doubt.count > 0 && step * step < 2 * kAgreement * kAgreement * R;
-    ++doubt.count;
-    doubt.agreements += agrees;
-    doubt.last_innovation = innovation;
-    return agrees && time - doubt.since > reset_after_ && doubt.count >= kFewest &&
-           doubt.agreements >= kFewestAgreements;
+    if (record.count == 0) record.since = time;
+    const double step = innovation - record.last_innovation;
+    const bool agrees = record.count > 0 && step * step < 2 * kAgreement * kAgreement * R;
+    ++record.count;
+    record.agreements += agrees;
+    record.last_innovation = innovation;
+    return agrees && time - record.since > reset_after_ && record.count >= kFewest &&
+           record.agreements >= kFewestAgreements;
   }
 
   Filter filter_;

@@ -71,7 +71,7 @@ class Mechanisation {
 
   /// The verdict that step() would return, for callers that stop before the stamp of the reading.
   ImuVerdict judge(const ImuReading& reading) const;
-  /// Integrates up to the reading's stamp, unless the verdict says that it is left out.
+  /// Integrates up to the reading's stamp, unless the verdict is that it is left out.
   ImuStep step(const ImuReading& reading);
   /// Integrates up to `stamp` with the means of a reading that ends there or later, without a verdict.
   void advance(const ImuReading& reading, Stamp stamp);

@@ -22,7 +22,8 @@ struct NoiseSample {
   double quantum = 0;    ///< the measurement is rounded to multiples of this; 0: not rounded
 };
 
-constexpr double kSaysNothing = 1e6;  ///< variance of a reading without information, for oracles, over the good one [-]
+constexpr double kNoInformation =
+    1e6;  ///< variance of a reading without information, for oracles, over the good one [-]
 
 /// Spells that begin at random, `rate` a second, and last `length` seconds; they do not overlap.
 class Spells {
@@ -98,11 +99,11 @@ class ProcessNoise {
 
 /// The covariance of L w, where L L^T = Q and the elements of w have these variances. Oracles use it.
 template <int N>
-Matrix<N> toldCovariance(const Matrix<N>& Q, const Vector<N>& variance) {
+Matrix<N> covarianceWith(const Matrix<N>& Q, const Vector<N>& variance) {
   const Matrix<N> L = Q.llt().matrixL();
-  Matrix<N> told = L * variance.asDiagonal() * L.transpose();
-  symmetrize(told);
-  return told;
+  Matrix<N> scaled = L * variance.asDiagonal() * L.transpose();
+  symmetrize(scaled);
+  return scaled;
 }
 
 }  // namespace sas_motion

@@ -40,7 +40,7 @@ def ranked(campaign, law):
 
 
 def contenders(campaign):
-    """Returns the estimators that are told nothing; all of them where none is left."""
+    """Returns the estimators without the oracles; all of them where none is left."""
     return [name for name in campaign['estimators'] if not informed(name)] or campaign['estimators']
 
 

@@ -28,7 +28,7 @@ OF_A_RUN = [
     ('errors', 'Errors of a run', 'Errors of the chosen estimator, first seed, and 3σ of its covariance; the others thin beside it. The frame is that of the scored time.'),
     ('effective', 'Effective particles of a run', 'Effective sample size of the chosen estimator; dotted: half the particles, below which it resamples.'),
     ('consistency', 'NEES and NIS of a run', 'Of a consistent filter 95 % lie in the band.'),
-    ('weights', 'Weights against labels', 'How much the estimator believed each measurement; crosses are the outliers by their labels.')]
+    ('weights', 'Weights against labels', 'The weight that the estimator gave each measurement; crosses are the outliers by their labels.')]
 
 
 def write_report(path, summary, costs, trace):

@@ -76,7 +76,7 @@ def below(high):
 
 
 def consistency(campaign):
-    """Says whose stated uncertainty can be believed in every law."""
+    """Returns a sentence about whose stated uncertainty is right in every law."""
     spans = {}
     for law, name in pairs(campaign):
         value = dig(law, 'estimators', name, 'nees', 'full', 'value')

@@ -43,7 +43,7 @@ def overview(campaign, name):
     best = {law: next((n for n in ranked(campaign, tree) if n in contenders(campaign)), None) for law, tree in campaign['laws'].items()}
     rows = [[escape(estimator)] + [with_interval(dig(tree, 'estimators', estimator, 'ratios', key), 'best' if best[law] == estimator else '', 2)
                                    for law, tree in campaign['laws'].items()] for estimator in campaign['estimators']]
-    caption = f'RMS error over that of {NAMES[key]}, with 95 % intervals. <span class="best">Best</span> of those that are told nothing in bold.'
+    caption = f'RMS error over that of {NAMES[key]}, with 95 % intervals. <span class="best">Best</span> estimator, oracles excluded, in bold.'
     return table(caption, ['estimator'] + [escape(law) for law in campaign['laws']], rows, f'{name}-overview')
 
 
@@ -85,12 +85,12 @@ def details(campaign, costs, name):
 
 
 def note(law, tree):
-    """Returns a law's description, where it says more than the name."""
+    """Returns a law's description, where it has more than the name."""
     return f' <small>{escape(tree["description"])}</small>' if tree.get('description') not in (None, '', law) else ''
 
 
 def ranking(campaign, law, costs, name):
-    """Returns the table of one law, the best first; who cannot be told from the best is marked."""
+    """Returns the table of one law, the best first; estimators whose interval reaches that of the best are marked."""
     group = campaign['groups'][0]
     ratios = [(key, title) for key, title in RATIOS if any(dig(law, 'estimators', n, 'ratios', key) for n in campaign['estimators'])]
     header = ['estimator', f'{escape(group)} RMS', 'median', *(title for _, title in ratios), 'aperture<br><small>mm</small>', 'NEES/n', 'failed', 'µs/update']

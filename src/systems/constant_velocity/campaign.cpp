@@ -161,7 +161,7 @@ class ConstantVelocityCampaign final : public Campaign {
       belief = filter.predict(belief, transition);
       auto z = model_.measurement(epoch.z, gaussian(belief).mean, epoch.time);
       for (int row = 0; row < kRows; ++row)
-        if (oracle || std::isinf(epoch.variance(row))) z.R(row, row) *= std::min(epoch.variance(row), kSaysNothing);
+        if (oracle || std::isinf(epoch.variance(row))) z.R(row, row) *= std::min(epoch.variance(row), kNoInformation);
       auto update = filter.update(belief, z);
       belief = update.belief;
       if (epoch.time > skip) constant_velocity::score(epoch, belief, update.nis, update.weights.minCoeff(), scorer);

@@ -24,7 +24,7 @@ void readAlignment(YamlSection yaml, SessionOptions& session) {
   yaml.finish();
 }
 
-/// A message without a covariance has the white noise that the filters are told.
+/// A message without a covariance has the white noise of the filters.
 void shareWhite(Settings& settings) {
   const Parameters& p = settings.session.config.parameters;
   settings.of(Sensor::Gps).white = p.gps_white;

@@ -12,7 +12,7 @@ namespace {
 using imaging::TimedPose;
 
 constexpr double kHalfStep =
-    0.01;  // of the believed velocity's difference [s]: a few readings of an IMU, and in it waves do not bend
+    0.01;  // of the estimated velocity's difference [s]: a few readings of an IMU, and in it waves do not bend
 
 /// Forward, port, up to starboard, forward, up.
 Vector<3> navigationAxes(const Eigen::Vector3d& v) { return {-v.y(), v.x(), v.z()}; }
@@ -21,10 +21,10 @@ Eigen::Vector3d phaseCentreForward(const imaging::SonarDescription& sonar) {
   return 0.5 * (sonar.transmitter_body + sonar.receiver_array_body);
 }
 
-/// Where transmitter and receivers are believed to be.
-class BelievedArray {
+/// Where transmitter and receivers are by the estimated trajectory.
+class EstimatedArray {
  public:
-  BelievedArray(const imaging::Trajectory& trajectory, const imaging::SonarDescription& sonar)
+  EstimatedArray(const imaging::Trajectory& trajectory, const imaging::SonarDescription& sonar)
       : trajectory_(trajectory), sonar_(sonar) {}
 
   Eigen::Quaterniond attitude(Stamp stamp) const { return at(stamp).q_local_body; }
@@ -45,7 +45,7 @@ class BelievedArray {
     const auto pose = trajectory_.at(stamp);
     if (!pose)
       throw std::invalid_argument(
-          "dpcReading: the believed trajectory does not reach from the first ping to the second one's echo");
+          "dpcReading: the estimated trajectory does not reach from the first ping to the second one's echo");
     return *pose;
   }
   Eigen::Vector3d place(Stamp stamp, const Eigen::Vector3d& lever_body) const {
@@ -68,8 +68,8 @@ TimedPose poseIn(const LocalFrame& map, Stamp stamp, const NavigationState& stat
 Vector<3> phaseCentre(const imaging::SonarDescription& sonar) { return navigationAxes(phaseCentreForward(sonar)); }
 
 Aiding dpcReading(const imaging::Micronavigation& found, const imaging::SonarDescription& sonar,
-                  const imaging::Trajectory& believed, Stamp first, Stamp second) {
-  const BelievedArray array(believed, sonar);
+                  const imaging::Trajectory& estimated, Stamp first, Stamp second) {
+  const EstimatedArray array(estimated, sonar);
   const Stamp delay = stampFromSeconds(found.delay), middle = first + (second - first) / 2 + delay;
   const double T = secondsBetween(first, second);
   const Eigen::Quaterniond half_way = array.attitude(first).slerp(0.5, array.attitude(second));

@@ -9,11 +9,6 @@
 namespace sas_motion::ins {
 namespace {
 
-std::optional<Solution> inFrame(const std::optional<NavigationSolution>& solution, const OutputFrame& frame) {
-  if (!solution || !frame.map) return std::nullopt;
-  return solutionOf(movedBy(*solution, frame.base_lever_body), *frame.map);
-}
-
 Geodetic placeOf(const NavigationState& state) {
   return {state.latitude / kRadPerDeg, state.longitude / kRadPerDeg, state.height};
 }
@@ -83,55 +78,39 @@ Solution solutionOf(const NavigationSolution& base, const LocalFrame& map) {
 
 NavigationSession::NavigationSession(const SessionOptions& options, const std::vector<std::string>& names,
                                      const EstimatorFactory& make, double output_rate, bool live)
-    : sas_motion::Session(names), options_(options), make_(make), output_rate_(output_rate), keeps_present_(live) {
-  reset();
-}
+    : SessionOf(
+          options.config, options.max_gap, names,
+          [this, make, options = options](const std::string& name) mutable {
+            options.config = config();
+            return make(name, config()) ? std::make_unique<AlignedEstimator>(options, name, make) : nullptr;
+          },
+          live),
+      output_rate_(output_rate),
+      settled_rates_(names.size(), OutputRate(output_rate)) {}
 
 void NavigationSession::reset() {
-  live_ = std::make_unique<LiveRun>(options_, names(), make_, keeps_present_);
+  SessionOf::reset();
   settled_rates_.assign(names().size(), OutputRate(output_rate_));
 }
 
-void NavigationSession::process(const Reading& reading) { live_->process(reading); }
-
-void NavigationSession::feed() { live_->run().feed(); }
-
-void NavigationSession::finish() { live_->finish(); }
-
-void NavigationSession::takeSettled(std::size_t lane, const OutputFrame& frame, sas_motion::Output& output) {
-  auto& settled = live_->run().lanes()[lane].output;
-  for (const auto& solution : settled.solutions)  // nothing starts without a fix, so that there is a map
-    if (settled_rates_[lane].due(solution.stamp)) output.solutions.push_back(*inFrame(solution, frame));
-  output.audits.insert(output.audits.end(), settled.audits.begin(), settled.audits.end());
-  settled.clear();
+std::optional<Solution> NavigationSession::solution(const NavigationSolution& solution,
+                                                    const OutputFrame& frame) const {
+  if (!frame.map) return std::nullopt;
+  return solutionOf(movedBy(solution, frame.base_lever_body), *frame.map);
 }
 
-std::optional<Solution> NavigationSession::current(std::size_t lane, const OutputFrame& frame) const {
-  return inFrame(live_->current(lane), frame);
-}
-
-std::optional<Solution> NavigationSession::at(std::size_t lane, const OutputFrame& frame, Stamp stamp) const {
-  return inFrame(live_->at(lane, stamp), frame);
+std::optional<Solution> NavigationSession::settledSolution(std::size_t lane, const NavigationSolution& state,
+                                                           const OutputFrame& frame) {
+  return settled_rates_[lane].due(state.stamp) ? solution(state, frame) : std::nullopt;
 }
 
 std::string NavigationSession::setState(std::size_t lane, const OutputFrame& frame, const StateRequest& request) {
   if (!frame.map) return "the datum of the map is not known yet";
-  const auto solution = request.stamp == 0 ? live_->current(lane) : live_->at(lane, request.stamp);
+  const auto solution = request.stamp == 0 ? timeline(lane).current() : timeline(lane).at(request.stamp);
   if (!solution)
     return "the stamp is older than the lag or far ahead, or the estimator has not started or keeps no present state; "
            "height and tilt at the stamp come from it";
-  live_->startAt(lane, startOf(*solution, frame, request, options_.config.parameters));
-  return "";
-}
-
-void NavigationSession::configure(const Tuning& tuning) {
-  tune(options_.config, tuning);
-  live_->configure(options_.config);
-}
-
-LaneReport NavigationSession::report(std::size_t index) const {
-  const Lane& lane = run().lanes()[index];
-  return {lane.readings, lane.seconds, lane.estimator ? lane.estimator->failure() : ""};
+  return setStart(lane, startOf(*solution, frame, request, config().parameters));
 }
 
 }  // namespace sas_motion::ins

@@ -184,7 +184,7 @@ void sortByStamp(std::vector<LabelledAiding>& aiding) {
 }
 
 std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, double duration) {
-  std::vector<ImuReading> readings{{}};  // the first only says when the time begins
+  std::vector<ImuReading> readings{{}};  // the first only marks the begin of time
   for (long k = 1; static_cast<double>(k) / rate <= duration + 1e-9; ++k)
     readings.push_back(trajectory.imu(static_cast<double>(k - 1) / rate, static_cast<double>(k) / rate));
   return readings;

@@ -61,7 +61,7 @@ class RunBound {
     for (const auto& other : runs_) {
       steps.push_back(model_.transition(other.truth()[k - 1], Input{}, step_));
       if (information_.process.genie)
-        steps.back().Q = toldCovariance<kStates>(steps.back().Q, run.processVariance()[k]);
+        steps.back().Q = covarianceWith<kStates>(steps.back().Q, run.processVariance()[k]);
     }
     bound.step(steps, information_.process.genie ? 1 : information_.process.factor);
   }

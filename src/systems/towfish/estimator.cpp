@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sas_motion/systems/towfish/filter_timeline.hpp"
+#include "sas_motion/systems/towfish/filter_estimator.hpp"
 #include "sas_motion/systems/towfish/rts.hpp"
 #include "sas_motion/systems/towfish/smoother_recorder.hpp"
 
@@ -28,8 +28,8 @@ std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& 
   std::unique_ptr<Estimator> estimator;
   withGuardedFilter<kStates>(name, config.filters, [&](const auto& filter) {
     using Filter = std::decay_t<decltype(filter)>;
-    estimator =
-        std::make_unique<FilterTimeline<Filter>>([name](const Config& c) { return filterOf<Filter>(name, c); }, config);
+    estimator = std::make_unique<FilterEstimator<Filter>>([name](const Config& c) { return filterOf<Filter>(name, c); },
+                                                          config);
   });
   if (estimator) return estimator;
   if (name == "rts")
@@ -38,7 +38,12 @@ std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& 
   return nullptr;
 }
 
-const char* Estimator::setState(const Estimate&, Output&) { return "it keeps no present state"; }
+bool suffices(const std::vector<Measurement>& measurements) {
+  const auto has = [&](Sensor sensor) {
+    return std::any_of(measurements.begin(), measurements.end(), [&](const auto& z) { return z.sensor == sensor; });
+  };
+  return has(Sensor::Position) && has(Sensor::Heading);
+}
 
 const char* invalidity(const Measurement& z, const Config& config) {
   if (z.stamp <= 0) return "no stamp";

@@ -6,7 +6,7 @@
 
 #include "sas_motion/evaluation/law_aware.hpp"
 #include "sas_motion/io/cpu_time.hpp"
-#include "sas_motion/systems/towfish/filter_timeline.hpp"
+#include "sas_motion/systems/towfish/filter_estimator.hpp"
 
 namespace sas_motion::towfish {
 namespace {
@@ -26,7 +26,7 @@ Motion trueMotion(const Model& model, const SimulatedRun& run) {
       whole.mean = step.mean;
       whole.F = (step.F * whole.F).eval();
       whole.Q =
-          (step.F * whole.Q * step.F.transpose() + toldCovariance<kStates>(step.Q, run.processVariance()[k])).eval();
+          (step.F * whole.Q * step.F.transpose() + covarianceWith<kStates>(step.Q, run.processVariance()[k])).eval();
     }
     return whole;
   };
@@ -41,8 +41,8 @@ double fastestRate(const Scenario& scenario) {
 
 std::unique_ptr<Estimator> makeOracle(const Config& config, const SimulatedRun& run) {
   using Filter = KalmanFilter<kStates>;
-  return std::make_unique<FilterTimeline<Filter>>([](const Config&) { return Filter(); }, config,
-                                                  trueMotion(Model(config.model), run));
+  return std::make_unique<FilterEstimator<Filter>>([](const Config&) { return Filter(); }, config,
+                                                   trueMotion(Model(config.model), run));
 }
 
 /// The reading with the variance that it was drawn with.
@@ -63,7 +63,7 @@ std::unique_ptr<Estimator> makeBayesReference(const Config& config, const Scenar
       for (int row = 0; row < rowsOf(sensor); ++row)
         options.mode.rows |= 1U << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));
   using Filter = GaussianSumFilter<kStates>;
-  return std::make_unique<FilterTimeline<Filter>>([options](const Config&) { return Filter(options); }, config);
+  return std::make_unique<FilterEstimator<Filter>>([options](const Config&) { return Filter(options); }, config);
 }
 
 }  // namespace
@@ -72,9 +72,10 @@ double estimate(const Config& config, const Scenario& scenario, const SimulatedR
                 const EstimatorFactory& make, const Listener& listen) {
   constexpr std::size_t kPart = 256;  // measurements
   const bool oracle = name == kOracle;
-  const auto estimator = oracle                    ? makeOracle(config, run)
-                         : name == kBayesReference ? makeBayesReference(config, scenario)
-                                                   : make(name, config);
+  auto estimator = oracle                    ? makeOracle(config, run)
+                   : name == kBayesReference ? makeBayesReference(config, scenario)
+                                             : make(name, config);
+  Timeline<Estimator> timeline(std::move(estimator), config, config.max_gap, false);
   Output output;
   double seconds = 0, begin = cpuSeconds();
   const auto hand_over = [&] {
@@ -85,10 +86,10 @@ double estimate(const Config& config, const Scenario& scenario, const SimulatedR
   };
   std::size_t taken = 0;
   for (const auto& labelled : run.measurements()) {
-    estimator->process(oracle ? withTrueVariance(labelled) : labelled.z, output);
+    timeline.process(oracle ? withTrueVariance(labelled) : labelled.z, output);
     if (++taken % kPart == 0) hand_over();
   }
-  estimator->finish(output);
+  timeline.finish(output);
   hand_over();
   return seconds;
 }

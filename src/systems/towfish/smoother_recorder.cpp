@@ -7,15 +7,6 @@
 namespace sas_motion::towfish {
 namespace {
 
-/// Takes all but the first of each sensor and stamp out of measurements in time order, and returns what it took.
-std::vector<Measurement> takeDuplicates(std::vector<Measurement>& measurements) {
-  std::vector<Measurement> kept, taken;
-  kept.reserve(measurements.size());
-  for (const auto& z : measurements) (kept.empty() || before(kept.back(), z) ? kept : taken).push_back(z);
-  measurements.swap(kept);
-  return taken;
-}
-
 void refuse(const std::vector<Measurement>& measurements, Verdict verdict, const char* reason, Output& output) {
   for (const auto& z : measurements) output.audits.push_back(refusal(z, verdict, reason));
 }
@@ -37,10 +28,12 @@ Audit smoothedAudit(const Measurement& z, const StateVector& x, const Model& mod
 }
 
 void SmootherRecorder::process(const Measurement& z, Output& output) {
-  if (const char* reason = invalidity(z, config_))
-    output.audits.push_back(refusal(z, Verdict::Invalid, reason));
-  else
-    measurements_.push_back(z);
+  const auto place = std::lower_bound(measurements_.begin(), measurements_.end(), z, before);
+  if (place != measurements_.end() && !before(z, *place)) {  // it was there before the last finish()
+    output.audits.push_back(refusal(z, Verdict::Invalid, "duplicate stamp"));
+    return;
+  }
+  measurements_.insert(place, z);
   unsolved_ = true;
 }
 
@@ -50,18 +43,6 @@ void SmootherRecorder::finish(Output& output) {
     return;
   }
   unsolved_ = false;
-  std::stable_sort(measurements_.begin(), measurements_.end(), before);
-  const auto duplicates = takeDuplicates(measurements_);
-  const auto first_audit = static_cast<std::ptrdiff_t>(output.audits.size());
-  solve(output);
-  const auto end_of_solution = static_cast<std::ptrdiff_t>(output.audits.size());
-  refuse(duplicates, Verdict::Invalid, "duplicate stamp", output);
-  const auto begin = output.audits.begin();
-  std::inplace_merge(begin + first_audit, begin + end_of_solution, output.audits.end(),
-                     [](const Audit& a, const Audit& b) { return a.stamp < b.stamp; });
-}
-
-void SmootherRecorder::solve(Output& output) {
   const auto problem = buildProblem(measurements_, config_);
   summary_ = {};
   if (!problem) {
@@ -83,12 +64,6 @@ void SmootherRecorder::solve(Output& output) {
   result.states.clear();
   result.weights.clear();
   summary_ = std::move(result);
-}
-
-void SmootherRecorder::reset() {
-  measurements_.clear();
-  unsolved_ = true;
-  summary_ = {};
 }
 
 }  // namespace sas_motion::towfish

@@ -14,7 +14,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double timeOf(const Ping& ping) { return secondsBetween(kScenarioStart, ping.stamp); }
 
-/// The oracle needs no guard: it starts from the prior, and knows every outlier.
+/// The oracle needs no guard: it starts from the prior, and is given every outlier.
 Config oracleConfig(const Config& config) {
   Config oracle = config;
   oracle.start_window = oracle.check_window = 0;

@@ -33,7 +33,7 @@ struct Output {
 Output estimate(const Config& config, const Scenario& scenario, const std::vector<LabelledPing>& pings,
                 const std::string& name, const FitterFactory& fitters);
 
-/// Whether `estimate` knows a name.
+/// Whether `estimate` accepts a name.
 bool isEstimator(const std::string& name, const FitterFactory& fitters);
 
 }  // namespace sas_motion::usbl

@@ -6,7 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "sas_motion/systems/ins_gps_dvl/head.hpp"
+#include "sas_motion/session/timeline.hpp"
+#include "sas_motion/systems/ins_gps_dvl/aligned_estimator.hpp"
 #include "sas_motion/systems/ins_gps_dvl/simulator.hpp"
 
 namespace sas_motion::ins::testing {
@@ -71,13 +72,30 @@ std::vector<Reading> without(std::vector<Reading> stream, const Unwanted& unwant
   return stream;
 }
 
+/// One estimator over readings in any order, with its settled output.
+struct EstimatorRun {
+  explicit EstimatorRun(const SessionOptions& options, const std::string& name = "kf27", bool keeps_present = false)
+      : estimator(new AlignedEstimator(options, name, makeEstimator)),
+        timeline(std::unique_ptr<InOrder>(estimator), options.config, options.max_gap, keeps_present) {}
+
+  void process(const Reading& reading) { timeline.process(reading, output); }
+  void process(const std::vector<Reading>& stream) {
+    for (const auto& reading : stream) process(reading);
+  }
+  void finish() { timeline.finish(output); }
+
+  AlignedEstimator* estimator;
+  Timeline<InOrder> timeline;
+  Output output;
+};
+
 /// The settled output of one estimator over a stream.
 inline Output settled(const std::vector<Reading>& stream, const SessionOptions& options,
                       const std::string& name = "kf27") {
-  EstimatorRun session(options, {name}, makeEstimator);
-  for (const auto& reading : stream) session.process(reading);
-  session.finish();
-  return session.lanes()[0].output;
+  EstimatorRun run(options, name);
+  run.process(stream);
+  run.finish();
+  return run.output;
 }
 
 /// A stream whose readings of GPS and DVL come late by `delay` at most, drawn from a fixed sequence [s].

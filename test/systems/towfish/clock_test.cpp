@@ -22,7 +22,7 @@ TEST_P(Clock, RecoversFromBeingSetWithinFiveSecondsOfData) {
   const auto run = testing::simulate(scenario, 8);
   for (const double jump : {1.0, -1.0, 3600.0, -3600.0, 3.15e8, -3.15e8}) {
     for (const double when : {30.0, 30.05}) {  // just before a fix, and just after one
-      const auto estimator = makeEstimator(GetParam(), testing::configFor(scenario));
+      const auto estimator = testing::timelineOf(GetParam(), testing::configFor(scenario));
       Output output;
       for (const auto& z : run.measurements) {
         Measurement moved = z;
@@ -44,7 +44,7 @@ TEST_P(Clock, OneWrongStampChangesNothingThatIsPublishedLive) {
   const Config config = testing::configFor(scenario);
   const auto measurements = testing::simulate(scenario, 4).measurements;
   for (const double wrong : {-3.15e8, -3600.0, -20.0, 20.0, 3600.0, 3.15e8}) {
-    const auto straight = makeEstimator(GetParam(), config), estimator = makeEstimator(GetParam(), config);
+    const auto straight = testing::timelineOf(GetParam(), config), estimator = testing::timelineOf(GetParam(), config);
     Output expected, output;
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       if (i % 97 == 50) {

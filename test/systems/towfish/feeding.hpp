@@ -15,18 +15,28 @@ inline const std::vector<std::string>& filterNames() {
   return names;
 }
 
+using TowfishTimeline = Timeline<towfish::Estimator>;
+
+/// An estimator over measurements in any order.
+inline std::unique_ptr<TowfishTimeline> timelineOf(std::unique_ptr<towfish::Estimator> estimator,
+                                                   const towfish::Config& config) {
+  return std::make_unique<TowfishTimeline>(std::move(estimator), config, config.max_gap);
+}
+inline std::unique_ptr<TowfishTimeline> timelineOf(const std::string& name, const towfish::Config& config) {
+  return timelineOf(towfish::makeEstimator(name, config), config);
+}
+
 /// All that an estimator puts out for measurements in this order.
-inline towfish::Output feed(towfish::Estimator& estimator, const std::vector<towfish::Measurement>& measurements) {
+inline towfish::Output feed(TowfishTimeline& timeline, const std::vector<towfish::Measurement>& measurements) {
   towfish::Output output;
-  for (const auto& z : measurements) estimator.process(z, output);
-  estimator.finish(output);
+  for (const auto& z : measurements) timeline.process(z, output);
+  timeline.finish(output);
   return output;
 }
 
 inline towfish::Output feed(const std::string& name, const towfish::Config& config,
                             const std::vector<towfish::Measurement>& measurements) {
-  const auto estimator = towfish::makeEstimator(name, config);
-  return feed(*estimator, measurements);
+  return feed(*timelineOf(name, config), measurements);
 }
 
 inline std::size_t count(const towfish::Output& output, Verdict verdict) {

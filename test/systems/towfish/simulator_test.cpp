@@ -108,7 +108,7 @@ TEST(Simulator, AFrozenRowRepeatsItsLastReading) {
     for (int row = 0; row < 2; ++row) {
       const bool bad = labelled.outlier[static_cast<std::size_t>(row)];
       ASSERT_EQ(labelled.z.value(row) == last(row), bad);
-      ASSERT_EQ(labelled.variance[static_cast<std::size_t>(row)], bad ? kSaysNothing : 1);
+      ASSERT_EQ(labelled.variance[static_cast<std::size_t>(row)], bad ? kNoInformation : 1);
       frozen += bad;
     }
     last = labelled.z.value;

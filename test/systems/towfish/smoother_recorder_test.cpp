@@ -8,7 +8,19 @@
 namespace sas_motion::towfish {
 namespace {
 
-SmootherRecorder recorder(const Config& config) {
+/// A recorder in its timeline.
+struct Recorder {
+  Recorder(const Config& config, SmootherRecorder::Solve solve)
+      : estimator(new SmootherRecorder(config, std::move(solve))),
+        timeline(testing::timelineOf(std::unique_ptr<Estimator>(estimator), config)) {}
+
+  Output feed(const std::vector<Measurement>& measurements) { return testing::feed(*timeline, measurements); }
+
+  SmootherRecorder* estimator;
+  std::unique_ptr<testing::TowfishTimeline> timeline;
+};
+
+Recorder recorder(const Config& config) {
   return {config, [options = config.rts](const SmoothingProblem& problem) { return smoothRts(problem, options); }};
 }
 
@@ -17,11 +29,11 @@ TEST(SmootherRecorder, OrderAndDuplicatesDoNotMatter) {
   const Config config = testing::configFor(scenario);
   auto measurements = testing::simulate(scenario, 1).measurements;
   auto first = recorder(config);
-  const auto in_order = testing::feed(first, measurements);
+  const auto in_order = first.feed(measurements);
   std::reverse(measurements.begin(), measurements.end());
   measurements.insert(measurements.end(), measurements.begin(), measurements.begin() + 50);
   auto second = recorder(config);
-  testing::expectSameEstimates(in_order, testing::feed(second, measurements), "reversed, some twice");
+  testing::expectSameEstimates(in_order, second.feed(measurements), "reversed, some twice");
   testing::expectRisingStamps(in_order);
 }
 
@@ -37,20 +49,20 @@ TEST(SmootherRecorder, BrokenMeasurementsAreCountedAndLeftOut) {
   bad.variance.setConstant(-1);
   mixed.insert(mixed.begin() + 9, bad);
   auto clean = recorder(config), dirty = recorder(config);
-  const auto output = testing::feed(dirty, mixed);
-  testing::expectSameEstimates(testing::feed(clean, good), output, "without the broken ones");
+  const auto output = dirty.feed(mixed);
+  testing::expectSameEstimates(clean.feed(good), output, "without the broken ones");
   EXPECT_EQ(testing::count(output, Verdict::Invalid), 2u);
 }
 
 TEST(SmootherRecorder, SaysWhyItCouldNotStart) {
   auto empty = recorder({});
-  EXPECT_TRUE(testing::feed(empty, {}).solutions.empty());
-  EXPECT_NE(empty.summary().failure, "");
+  EXPECT_TRUE(empty.feed({}).solutions.empty());
+  EXPECT_NE(empty.estimator->summary().failure, "");
   Measurement z;
   z.stamp = 1;
   auto single = recorder({});
-  EXPECT_TRUE(testing::feed(single, {z}).solutions.empty());
-  EXPECT_EQ(single.summary().failure, "no position and heading to start from");
+  EXPECT_TRUE(single.feed({z}).solutions.empty());
+  EXPECT_EQ(single.estimator->summary().failure, "no position and heading to start from");
 }
 
 /// Reasons of the audits with a verdict.
@@ -75,7 +87,7 @@ TEST(SmootherRecorder, EveryMeasurementHasAnAuditInTimeOrder) {
                                    [](const auto& z) { return z.sensor == Sensor::Heading; });
   measurements.insert(measurements.end(), {twice, twice});
   auto smoother = recorder(testing::configFor(scenario));
-  const auto output = testing::feed(smoother, measurements);
+  const auto output = smoother.feed(measurements);
   EXPECT_EQ(reasons(output, Verdict::Stale), std::vector<std::string>(3, "before the first position and heading"));
   EXPECT_EQ(reasons(output, Verdict::Invalid), std::vector<std::string>(2, "duplicate stamp"));
   const auto inputs = std::count_if(measurements.begin(), measurements.end(),
@@ -89,14 +101,14 @@ TEST(SmootherRecorder, EveryMeasurementHasAnAuditInTimeOrder) {
 TEST(SmootherRecorder, WithoutASolutionEveryMeasurementIsRefused) {
   const auto scenario = testing::zhu2007(10);
   const auto measurements = testing::simulate(scenario, 5).measurements;
-  SmootherRecorder broken(testing::configFor(scenario), [](const SmoothingProblem&) {
+  Recorder broken(testing::configFor(scenario), [](const SmoothingProblem&) {
     SmootherResult result;
     result.failure = "broken";
     return result;
   });
-  const auto output = testing::feed(broken, measurements);
+  const auto output = broken.feed(measurements);
   EXPECT_TRUE(output.solutions.empty());
-  EXPECT_EQ(broken.failure(), "broken");
+  EXPECT_EQ(broken.estimator->failure(), "broken");
   EXPECT_EQ(reasons(output, Verdict::Invalid),
             std::vector<std::string>(measurements.size(), "the smoother found no solution"));
   auto headings = measurements;
@@ -104,19 +116,19 @@ TEST(SmootherRecorder, WithoutASolutionEveryMeasurementIsRefused) {
       std::remove_if(headings.begin(), headings.end(), [](const auto& z) { return z.sensor == Sensor::Position; }),
       headings.end());
   auto lost = recorder(testing::configFor(scenario));
-  EXPECT_EQ(reasons(testing::feed(lost, headings), Verdict::Stale).size(), headings.size());
+  EXPECT_EQ(reasons(lost.feed(headings), Verdict::Stale).size(), headings.size());
 }
 
 TEST(SmootherRecorder, FinishingTwiceSaysNothingTwice) {
   const auto scenario = testing::zhu2007(20);
   const auto measurements = testing::simulate(scenario, 6).measurements;
   auto smoother = recorder(testing::configFor(scenario));
-  EXPECT_FALSE(testing::feed(smoother, measurements).solutions.empty());
-  EXPECT_EQ(smoother.failure(), "");
-  const auto again = testing::feed(smoother, {});
+  EXPECT_FALSE(smoother.feed(measurements).solutions.empty());
+  EXPECT_EQ(smoother.estimator->failure(), "");
+  const auto again = smoother.feed({});
   EXPECT_TRUE(again.solutions.empty());
   EXPECT_TRUE(again.audits.empty());
-  EXPECT_EQ(smoother.failure(), "nothing new since the last solution");
+  EXPECT_EQ(smoother.estimator->failure(), "nothing new since the last solution");
 }
 
 TEST(SmootherRecorder, MoreDataAfterTheEndAreSolvedWithAllBeforeThem) {
@@ -124,11 +136,9 @@ TEST(SmootherRecorder, MoreDataAfterTheEndAreSolvedWithAllBeforeThem) {
   const auto measurements = testing::simulate(scenario, 7).measurements;
   const auto half = measurements.begin() + static_cast<std::ptrdiff_t>(measurements.size() / 2);
   auto smoother = recorder(testing::configFor(scenario)), whole = recorder(testing::configFor(scenario));
-  testing::feed(smoother, {measurements.begin(), half});
-  const auto all = testing::feed(whole, measurements);
-  testing::expectSameEstimates(testing::feed(smoother, {half, measurements.end()}), all, "in two parts");
-  smoother.reset();
-  testing::expectSameEstimates(testing::feed(smoother, measurements), all, "after a reset");
+  smoother.feed({measurements.begin(), half});
+  const auto all = whole.feed(measurements);
+  testing::expectSameEstimates(smoother.feed({half, measurements.end()}), all, "in two parts");
 }
 
 TEST(SmootherRecorder, AuditsCarryTheSmoothedResidualsAndWeights) {
@@ -136,7 +146,7 @@ TEST(SmootherRecorder, AuditsCarryTheSmoothedResidualsAndWeights) {
   const Config config = testing::configFor(scenario);
   const auto run = testing::simulate(scenario, 3);
   auto smoother = recorder(config);
-  const auto output = testing::feed(smoother, run.measurements);
+  const auto output = smoother.feed(run.measurements);
   ASSERT_EQ(output.audits.size(), run.labelled.size());
   std::size_t flagged_outliers = 0, outliers = 0, flagged_good = 0;
   for (std::size_t i = 0; i < output.audits.size(); ++i) {

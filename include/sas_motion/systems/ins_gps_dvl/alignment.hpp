@@ -11,7 +11,7 @@
 
 namespace sas_motion::ins {
 
-/// Where estimators begin, with what is believed there.
+/// Where estimators begin, with the state and its standard deviations there.
 struct Start {
   NavigationState state;
   Stamp stamp = 0;
@@ -26,7 +26,7 @@ struct AlignmentOptions {
   double velocity_wait = 10;  ///< for the velocity; then the body is taken to be at rest [s]
   bool fixes_aid = true;      ///< else they only start the INS, which is as sure of its position as the fix
   double position_sigma =
-      30;  ///< far more than a fix is off by: the fix itself, fused at once, says how sure the position is [m]
+      30;  ///< far more than a fix is off by: the fix itself, fused at once, decides the variance of the position [m]
   double velocity_sigma = 1;            ///< the same of the DVL's velocity [m/s]
   double rest_velocity_sigma = 5;       ///< where there is no DVL [m/s]
   double ground_velocity_sigma = 0.05;  ///< of GNSS's velocity where it states none [m/s]
@@ -36,8 +36,8 @@ struct AlignmentOptions {
 /// passes them on once it has started, and refuses those before.
 ///
 /// The start is at the attitude's stamp. Position and velocity get wide standard deviations and the fix is fused at
-/// once, so that the filter finds what errors they share with GPS and DVL. A velocity that GNSS knows starts it as
-/// surely as GNSS says.
+/// once, so that the filter finds what errors they share with GPS and DVL. A velocity of GNSS starts it with
+/// the standard deviation of that velocity.
 class Alignment {
  public:
   Alignment(const AlignmentOptions& options, const Parameters& parameters)

@@ -5,15 +5,15 @@
 #include <array>
 
 #include "sas_motion/config/yaml_section.hpp"
-#include "sas_motion/systems/ins_gps_dvl/run.hpp"
+#include "sas_motion/systems/ins_gps_dvl/aligned_estimator.hpp"
 
 namespace sas_motion::ins {
 
 /// How a sensor's messages are taken.
 struct MessageOptions {
   Vector<3> white = Vector<3>::Zero();  ///< standard deviations where the message states none [m, m/s]
-  double floor = 0;                     ///< the smallest standard deviation believed of a message [m, m/s]
-  bool override_message = false;        ///< use the configured noise whatever the message says
+  double floor = 0;                     ///< the smallest standard deviation taken from a message [m, m/s]
+  bool override_message = false;        ///< use the configured noise whatever the message states
   double time_offset = 0;               ///< added to the message's stamp [s]
   bool enabled = true;
 };

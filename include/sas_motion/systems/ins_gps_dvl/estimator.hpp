@@ -22,7 +22,7 @@ struct FixedLag {
   double solve_interval = 5;  ///< between two solutions [s]
 };
 
-/// What every estimator of this system is told.
+/// The settings of every estimator of this system.
 struct Config {
   Parameters parameters;
   Mechanisation::Options imu;
@@ -53,16 +53,18 @@ class Estimator {
  public:
   virtual ~Estimator() = default;
 
-  /// Begins at a stamp with what is believed there, and forgets everything before.
+  /// Begins at a stamp with a state, and forgets everything before.
   virtual void start(const NavigationState& state, Stamp stamp) = 0;
   /// Takes one reading of a sensor that aids. Data never throws.
   virtual void process(const Aiding& reading, Output& output) = 0;
-  /// Takes one reading of the IMU, and says what became of it.
+  /// Takes one reading of the IMU, and returns what became of it.
   virtual ImuVerdict process(const ImuReading& reading, Output& output) = 0;
   /// The end of the data, or a pause: settles everything that is still open.
   virtual void finish(Output&) {}
   /// Other losses, for readings that come from now on.
   virtual void configure(const Config&) {}
+  /// How often a smoother has corrected its present; a filter never does.
+  virtual std::uint64_t corrections() const { return 0; }
   /// Why the last finish() has no answer, in plain words; empty where all is well.
   virtual std::string failure() const { return ""; }
   /// Another that goes on from here; null where the estimator keeps no present state.
@@ -75,7 +77,7 @@ class Estimator {
 /// sensors alone.
 std::unique_ptr<Estimator> makeEstimator(const std::string& name, const Config& config);
 
-/// The names makeEstimator knows.
+/// The names that makeEstimator accepts.
 const std::vector<std::string>& estimatorNames();
 
 using EstimatorFactory = std::function<std::unique_ptr<Estimator>(const std::string&, const Config&)>;

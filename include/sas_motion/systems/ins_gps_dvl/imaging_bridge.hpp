@@ -16,14 +16,14 @@ imaging::TimedPose poseIn(const LocalFrame& map, Stamp stamp, const NavigationSt
 /// Parameters::dpc_lever_body of this sonar: the middle between its transmitter and its receiver array [m].
 Vector<3> phaseCentre(const imaging::SonarDescription& sonar);
 
-/// What a valid measurement between pings at `first` and `second` says to the estimators, at the middle of its
+/// The reading that estimators get of a valid measurement between pings at `first` and `second`, at the middle of its
 /// displacement: `along` and `sight` over the interval T, with variances sigma^2 / T^2. A displacement is a mean
 /// velocity, on the axes half-way between the pings' attitudes, `delay` before that middle, of a phase centre that
 /// accelerates while the echo is under way. What the velocity and the axes at the middle differ by from that is taken
-/// from the believed motion, in any local frame: up to 1.1 mm/s in the waves of a default track, twenty times the
-/// standard deviation along the sight. Errors of the belief cancel as far as they do not change within T. `believed`
+/// from the estimated motion, in any local frame: up to 1.1 mm/s in the waves of a default track, twenty times the
+/// standard deviation along the sight. Errors of the estimate cancel as far as they do not change within T. `estimated`
 /// must reach from first to second + 2 delay; throws std::invalid_argument where it does not.
 Aiding dpcReading(const imaging::Micronavigation& found, const imaging::SonarDescription& sonar,
-                  const imaging::Trajectory& believed, Stamp first, Stamp second);
+                  const imaging::Trajectory& estimated, Stamp first, Stamp second);
 
 }  // namespace sas_motion::ins

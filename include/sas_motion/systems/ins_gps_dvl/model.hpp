@@ -91,14 +91,14 @@ struct ArrayVelocity {
   Vector<2> variance = Vector<2>::Ones();      ///< [m^2/s^2]
 };
 
-/// What one of the sensors that aid the INS says.
+/// A reading of one of the sensors that aid the INS.
 struct Aiding {
   Stamp stamp = 0;
   Sensor sensor = Sensor::Gps;
   NavigationState fix;                          ///< GPS: position of the antenna; depth: height of the sensor
   Vector<3> velocity_body = Vector<3>::Zero();  ///< DVL: its velocity over the ground
   ArrayVelocity array;                          ///< DPC
-  // Where the reading says more than the parameters do.
+  // Where the reading states more than the parameters.
   std::optional<Vector<3>> variance;    ///< of its white noise, a row each [m^2, m^2/s^2]
   std::optional<Vector<3>> lever_body;  ///< its sensor from the INS, from now on [m]
 };
@@ -116,7 +116,7 @@ class ErrorModel {
  public:
   ErrorModel(const Parameters& parameters, const NavigationState& start);
 
-  /// Means over one step of time: where the INS is, the force on it and how it lies.
+  /// Means over one step of time: the INS's position, the force on it and its attitude.
   struct Motion {
     NavigationState state;
     Vector<3> force_nav;
@@ -131,7 +131,7 @@ class ErrorModel {
   Transition<kStates> transition(const Motion& motion, double T, const Errors& mean) const;
   Gaussian<kStates> start() const;
 
-  /// A fix of the antenna, minus what the INS says of it. Innovations are z - h(x), so H = dh/dx of the errors x.
+  /// A fix of the antenna, minus the INS's. Innovations are z - h(x), so H = dh/dx of the errors x.
   LinearMeasurement<kStates, 3> gps(const NavigationState& ins, const NavigationState& fix, const Errors& mean) const;
   /// Velocity over the ground on the DVL's axes; `rate_body` is of the body against inertial space.
   LinearMeasurement<kStates, 3> dvl(const NavigationState& ins, const Vector<3>& rate_body,

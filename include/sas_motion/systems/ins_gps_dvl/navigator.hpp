@@ -15,14 +15,14 @@
 
 namespace sas_motion::ins {
 
-/// Fuses nothing: what each sensor says alone is what a run with it gives.
+/// Fuses nothing: gives each sensor's own answer.
 struct Unaided {
   Gaussian<kStates> predict(const Gaussian<kStates>& belief, const Transition<kStates>&) const { return belief; }
   template <int M>
   Update<Gaussian<kStates>, M> update(const Gaussian<kStates>& prior, const LinearMeasurement<kStates, M>& z) const;
 };
 
-/// An audit that says that a reading was not fused.
+/// The audit of a reading that was not fused.
 inline Audit refusal(const Aiding& reading, Verdict verdict, std::string_view reason) {
   return sas_motion::refusal(reading.stamp, sensorName(reading.sensor), rowsOf(reading.sensor), verdict, reason);
 }

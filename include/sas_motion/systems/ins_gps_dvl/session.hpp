@@ -3,43 +3,38 @@
 #pragma once
 
 #include "sas_motion/session/output_rate.hpp"
-#include "sas_motion/session/session.hpp"
-#include "sas_motion/systems/ins_gps_dvl/head.hpp"
+#include "sas_motion/session/session_of.hpp"
+#include "sas_motion/systems/ins_gps_dvl/aligned_estimator.hpp"
 
 namespace sas_motion::ins {
 
 /// A state of the base as a solution.
 Solution solutionOf(const NavigationSolution& base, const LocalFrame& map);
 
-/// Estimators of a system with an INS side by side, live or from a bag.
-class NavigationSession final : public sas_motion::Session {
+/// Estimators of a system with an INS side by side.
+class NavigationSession final : public SessionOf<InOrder> {
  public:
-  /// `output_rate` is that of settled answers [1/s]; `live`: keep the present answers. Throws std::invalid_argument
-  /// where the factory knows no such estimator.
+  /// `output_rate` is that of settled answers [1/s]; for the rest see SessionOf.
   NavigationSession(const SessionOptions& options, const std::vector<std::string>& names, const EstimatorFactory& make,
                     double output_rate, bool live);
 
-  void process(const Reading& reading);
-  const EstimatorRun& run() const { return live_->run(); }
+  /// The first lane's.
+  const Alignment& alignment() const { return estimator().alignment(); }
+  const InertialCounts& inertial() const { return estimator().inertial(); }
+  /// How many readings of the IMU and velocities of GNSS were left out for this reason.
+  std::uint64_t refused(Timeline<InOrder>::Queue::Refusal why) const { return timeline(0).refused(why); }
 
-  void feed() override;
-  std::size_t unfed() const override { return run().unfed(); }
-  void finish() override;
   void reset() override;
-  void takeSettled(std::size_t lane, const OutputFrame& frame, sas_motion::Output& output) override;
-  std::optional<Solution> current(std::size_t lane, const OutputFrame& frame) const override;
-  std::optional<Solution> at(std::size_t lane, const OutputFrame& frame, Stamp stamp) const override;
   std::string setState(std::size_t lane, const OutputFrame& frame, const StateRequest& request) override;
-  void configure(const Tuning& tuning) override;
-  LaneReport report(std::size_t lane) const override;
   bool positionsAreOfMap() const override { return false; }
 
  private:
-  SessionOptions options_;
-  EstimatorFactory make_;
+  const AlignedEstimator& estimator() const { return static_cast<const AlignedEstimator&>(timeline(0).settled()); }
+  std::optional<Solution> solution(const NavigationSolution& solution, const OutputFrame& frame) const override;
+  std::optional<Solution> settledSolution(std::size_t lane, const NavigationSolution& solution,
+                                          const OutputFrame& frame) override;
+
   double output_rate_;
-  bool keeps_present_;
-  std::unique_ptr<LiveRun> live_;
   std::vector<OutputRate> settled_rates_;  // by lane
 };
 

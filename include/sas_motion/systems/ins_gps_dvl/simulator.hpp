@@ -21,7 +21,7 @@ struct LabelledAiding {
 
 /// All that was recorded of one simulated run; stamps are since its start.
 struct Recording {
-  NavigationState start;  ///< what the INS believes when it starts
+  NavigationState start;  ///< the INS's when it starts
   std::vector<ImuReading> imu;
   std::vector<LabelledAiding> aiding;  ///< in time order
 };
@@ -32,7 +32,7 @@ std::vector<ImuReading> perfectImu(const Trajectory& trajectory, double rate, do
 /// Adds constants, a Gauss-Markov drift and white noise to what an IMU reads. (C.1)
 void addImuErrors(std::vector<ImuReading>& readings, const Parameters& parameters, std::uint64_t seed);
 
-/// One of the sensors that aid: its rows of white noise, when it says nothing, and when it says the same again.
+/// One of the sensors that aid: its rows of white noise, when it is silent, and when it repeats its last reading.
 class AidingSource {
  public:
   AidingSource(const Scenario::Readings& readings, Sensor sensor, std::uint64_t seed);

@@ -12,12 +12,12 @@
 
 namespace sas_motion::sins {
 
-/// What every estimator of this system is told.
+/// The settings of every estimator of this system.
 struct Config {
   Parameters parameters;
   Mechanisation::Options imu;
   UnscentedParticleOptions
-      particles;  ///< number, threads, seed; the estimator's name says the weighting and whether there is a loss
+      particles;  ///< number, threads, seed; the estimator's name decides the weighting and whether there is a loss
   bool accelerometer_bias = true;  ///< 19 states; else the paper's 16
   double longest_step = 1;         ///< of one prediction of the filter [s]
   FilterOptions filters;           ///< of the fusion by small angles
@@ -52,7 +52,7 @@ std::string currentName(const std::string& name);
 /// estimated errors are taken out of the solution. Audits hold the effective number of particles.
 std::unique_ptr<ins::Estimator> makeEstimator(const std::string& name, const Config& config);
 
-/// The same sensors as the fusion by small angles is told of them.
+/// The same sensors for the fusion by small angles.
 ins::Config inSmallAngles(const Config& config);
 
 using EstimatorFactory = std::function<std::unique_ptr<ins::Estimator>(const std::string&, const Config&)>;

@@ -43,7 +43,7 @@ struct Parameters : ins::StartAndMounting {
   Parameters() : StartAndMounting{{0.06, 0.06, 1}, 0.05, 0.05 * kRadPerDeg, 0.3 * kRadPerDeg} {}
 };
 
-/// The same sensors and start as the fusion by small angles is told of them; it has no GPS then.
+/// The same sensors and start for the fusion by small angles, without GPS.
 ins::Parameters inSmallAngles(const Parameters& parameters);
 
 /// q = [scalar, vector] as the state has it.
@@ -57,7 +57,7 @@ Matrix<4, 3> rightTurn(const Eigen::Quaterniond& q);
 NavigationState moved(const NavigationState& state, const Preintegration& preintegrated, const Vector<3>& eps,
                       const Vector<3>& nabla);
 
-/// The error dynamics over an interval, exactly: the INS and what an error says is the truth are both moved, and
+/// The error dynamics over an interval, exactly: the INS and the truth by an error are both moved, and
 /// compared. (B.1)-(B.4)
 template <int N>
 class Motion {
@@ -78,7 +78,7 @@ class Motion {
   double offset_decay_, angle_decay_;
 };
 
-/// What an error says of the INS as it stands: the truth, and what sensors read.
+/// The truth by the INS and an error, and what sensors read there.
 template <int N>
 class View {
  public:
@@ -102,7 +102,7 @@ class View {
 template <int N>
 Matrix<N> turnRoot(const NavigationState& ins, const Vector<3>& variance);
 
-/// What is known of the errors at the start, where the INS believes to be at `ins`.
+/// The distribution of the errors at the start, of an INS with the state `ins`.
 template <int N>
 Gaussian<N> startBelief(const Parameters& parameters, const NavigationState& ins);
 

@@ -25,7 +25,7 @@ struct Scenario {
   static Scenario read(YamlSection yaml);
 };
 
-/// What a run is simulated from and scored against: motion, and what the 27-state fusion is told of the same sensors.
+/// What a run is simulated from and scored against: motion, and the same sensors for the 27-state fusion.
 ins::Scenario withoutGps(const Scenario& scenario);
 
 /// Draws a run: the IMU by (0.4) with constants and white noise, the DVL by (B.5). The same scenario and seed

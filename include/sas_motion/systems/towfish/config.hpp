@@ -17,8 +17,8 @@ namespace sas_motion::towfish {
 /// How a sensor's messages are taken.
 struct SensorOptions {
   double sigma = 1;               ///< standard deviation where the message has none [m, rad, m/s, rad/s]
-  double floor = 0;               ///< the smallest standard deviation believed of a message [same unit]
-  bool override_message = false;  ///< use sigma whatever the message says
+  double floor = 0;               ///< the smallest standard deviation taken from a message [same unit]
+  bool override_message = false;  ///< use sigma whatever the message states
   double time_offset = 0;         ///< added to the message's stamp [s]
   bool enabled = true;
 };
@@ -29,8 +29,8 @@ struct Config {
   std::array<SensorOptions, kSensors> sensors{};  ///< by Sensor
   StartOptions start;
   double lag = 5;                            ///< late measurements are fused at their own time up to this age [s]
-  double max_gap = 10;                       ///< a stamp further ahead of all others is not believed alone [s]
-  double input_hold = 1;                     ///< a turn rate is believed this long [s]
+  double max_gap = 10;                       ///< a stamp further ahead of all others is not accepted alone [s]
+  double input_hold = 1;                     ///< a turn rate is used this long [s]
   double turn_rate_limit = 30 * kRadPerDeg;  ///< a faster turn rate is invalid [rad/s]
 
   FilterOptions filters;

@@ -6,7 +6,7 @@
 
 namespace sas_motion::towfish {
 
-/// The turn rate in force: the last one measured, for as long as it is believed.
+/// The turn rate in force: the last one measured, for as long as it is used.
 struct HeldInput {
   Input last;
   Stamp stamp = 0;  ///< of its measurement
@@ -15,7 +15,7 @@ struct HeldInput {
     last.turn_rate = turn_rate.value(0);
     stamp = turn_rate.stamp;
   }
-  /// What a step that ends at a stamp knows of the motion, where a turn rate is believed for `hold` seconds.
+  /// The input of a step that ends at a stamp, where a turn rate is used for `hold` seconds.
   Input at(Stamp end, double hold) const { return secondsBetween(stamp, end) <= hold ? last : Input{}; }
 };
 

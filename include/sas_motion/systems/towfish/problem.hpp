@@ -30,7 +30,8 @@ struct SmoothingProblem {
   double dt(std::size_t node) const { return secondsBetween(stamps[node - 1], stamps[node]); }
 };
 
-/// What a smoother found. Failure is data: `failure` says in plain words what went wrong and is empty otherwise.
+/// The result of a smoother. `failure` has the reason in plain words where there is no solution, and is empty
+/// otherwise.
 struct SmootherResult {
   std::vector<Gaussian<kStates>> states;  ///< of each node
   std::vector<Vector<2>> weights;         ///< of each measurement's rows

@@ -13,11 +13,11 @@ namespace sas_motion::towfish {
 class SimulatedRun {
  public:
   SimulatedRun(const Scenario& scenario, std::uint64_t seed) : step_(stampFromSeconds(scenario.step)) {
-    const bool told = scenario.kind == Scenario::Kind::RandomWalk && !scenario.process.laws.empty();
+    const bool has_process_laws = scenario.kind == Scenario::Kind::RandomWalk && !scenario.process.laws.empty();
     Simulator simulator(scenario, seed);
     while (simulator.next()) {
       truth_.push_back(simulator.truth().state);
-      if (told) process_variance_.push_back(simulator.truth().process_variance);
+      if (has_process_laws) process_variance_.push_back(simulator.truth().process_variance);
       first_.push_back(measurements_.size());
       measurements_.insert(measurements_.end(), simulator.measurements().begin(), simulator.measurements().end());
     }

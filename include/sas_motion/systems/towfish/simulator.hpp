@@ -19,7 +19,7 @@ struct TruthSample {
       StateVector::Ones();  ///< random walk: of the whitened noise of the step that led here, over the good one [-]
 };
 
-/// A measurement and, for each of its rows, whether its noise was an outlier and what an oracle is told of its
+/// A measurement and, for each of its rows, whether its noise was an outlier and the true variance of its
 /// variance.
 struct LabelledMeasurement {
   Measurement z;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "sas_motion/systems/towfish/estimator.hpp"
 #include "sas_motion/systems/towfish/problem.hpp"
@@ -13,8 +14,8 @@ namespace sas_motion::towfish {
 Audit smoothedAudit(const Measurement& z, const StateVector& x, const Model& model, const Vector<2>& weights,
                     int iterations);
 
-/// A batch smoother as an estimator: it records every usable measurement and solves when the data end. Should more come
-/// and end, it solves all since the last reset() anew and puts all of it out again.
+/// A batch smoother as an estimator: it records every measurement and solves when the data end. Should more come and
+/// end, it solves all since the start anew and puts all of it out again.
 class SmootherRecorder final : public Estimator {
  public:
   using Solve = std::function<SmootherResult(const SmoothingProblem&)>;
@@ -23,21 +24,19 @@ class SmootherRecorder final : public Estimator {
 
   void process(const Measurement& z, Output& output) override;
   void finish(Output& output) override;
-  std::optional<Estimate> current() const override { return std::nullopt; }
-  std::optional<Estimate> at(Stamp) const override { return std::nullopt; }
-  void reset() override;
+  void startAnew(Output&) override {}
+  double lag() const override { return std::numeric_limits<double>::infinity(); }
+  bool keepsPresent() const override { return false; }
   std::string failure() const override { return summary_.failure; }
 
   /// The last solution, without its states.
   const SmootherResult& summary() const { return summary_; }
 
  private:
-  void solve(Output& output);
-
   Config config_;
   Solve solve_;
-  std::vector<Measurement> measurements_;
-  bool unsolved_ = true;  // there may be more than at the last finish()
+  std::vector<Measurement> measurements_;  // in time order
+  bool unsolved_ = true;                   // there may be more than at the last finish()
   SmootherResult summary_;
 };
 

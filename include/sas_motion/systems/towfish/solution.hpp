@@ -5,7 +5,8 @@
 #include "sas_motion/session/session.hpp"
 #include "sas_motion/systems/towfish/estimator.hpp"
 
-/// Between the towfish's state (north, east, clockwise heading, speed through the water) and what every system says.
+/// Between the towfish's state (north, east, clockwise heading, speed through the water) and the solution of every
+/// system.
 namespace sas_motion::towfish {
 
 /// A state as a solution; its place where the map is known.

@@ -9,8 +9,8 @@
 
 namespace sas_motion::ins {
 
-/// Cuts a run into nodes as it comes: one wherever a sensor that aids speaks, and wherever the last is long ago.
-/// robust_kf27 runs beside and says where iterations start.
+/// Cuts a run into nodes as it comes: one at each reading of a sensor that aids, and where the last is long ago.
+/// Iterations start from robust_kf27, which runs beside.
 class InsChain {
  public:
   /// A node with what was read at it and on the way into it. A node that stands already comes again where readings of

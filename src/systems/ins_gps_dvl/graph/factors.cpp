@@ -171,14 +171,14 @@ void AidingFactor::distort(const gtsam::Values& values, const LinearMeasurement<
   };
   const double scale = estimated(kDvlScaleKey) ? values.at<double>(kDvlScaleKey) : 0;
   const Matrix<3> D = dvlDistortion(scale, vector_at(kDvlMisalignmentKey));
-  // The velocity of the DVL where it is told to be, which the innovation is of, and where it is.
+  // The velocity of the DVL at its configured place, which the innovation is of, and at its own.
   const NavigationState& state = values.at<Node>(keys()[0]).state;
   const Matrix<3> turning = skew(rateOverGround(state, rate_body_));
   const Vector<3> of_ins = state.q_nav_body.conjugate() * state.velocity_nav;
-  const Vector<3> told = of_ins - model_->velocityOfIns(state, rate_body_, Vector<3>::Zero());
+  const Vector<3> configured = of_ins - model_->velocityOfIns(state, rate_body_, Vector<3>::Zero());
   const Matrix<3> drift = driftTurn(*model_, values.at<Node>(keys()[0]));
-  const Vector<3> velocity = told + turning * vector_at(kDvlLeverKey), seen = drift * velocity;
-  error += (D.row(row_) * seen)(0) - (told - of_ins + drift * of_ins)(row_);
+  const Vector<3> velocity = configured + turning * vector_at(kDvlLeverKey), seen = drift * velocity;
+  error += (D.row(row_) * seen)(0) - (configured - of_ins + drift * of_ins)(row_);
   row.head<9>() = D.row(row_) * z.H.leftCols<9>();
   row.head<9>() *= -1;  // the error is h(x) - z
   if (model_->parameters().dvl_drift)

@@ -59,7 +59,7 @@ class AidingFactor final : public gtsam::NoiseModelFactor {
   double sigma_;
 };
 
-/// What a filter believes of a node and the constants, jointly.
+/// A filter's joint belief of a node and the constants.
 class BeliefFactor final : public gtsam::NoiseModelFactor2<Node, Constants> {
  public:
   BeliefFactor(gtsam::Key node, const NavigationState& fused, const Gaussian<kStates>& belief);

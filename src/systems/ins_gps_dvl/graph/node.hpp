@@ -20,8 +20,7 @@ using Constants = Vector<kConstantStates>;
 const gtsam::Key kConstantsKey = gtsam::Symbol('c', 0);
 const gtsam::Key kDvlScaleKey = gtsam::Symbol('s', 0);         ///< double [-]
 const gtsam::Key kDvlMisalignmentKey = gtsam::Symbol('t', 0);  ///< Vector3 [rad]
-const gtsam::Key kDvlLeverKey =
-    gtsam::Symbol('l', 0);  ///< Vector3, what its lever arm is more than it is told to be; body [m]
+const gtsam::Key kDvlLeverKey = gtsam::Symbol('l', 0);  ///< Vector3, its lever arm minus the configured one; body [m]
 
 /// The body at one time and what wanders, as a variable of a factor graph on the manifold of the error definitions: a
 /// step e leads to the state that has the errors e, so that Jacobians are those of ErrorModel, in its units.

@@ -100,6 +100,7 @@ void InsSmoother::finish(Output& output) {
 }
 
 void InsSmoother::solve(int max_iterations, double tolerance, Output& output) {
+  ++corrections_;
   const std::string failure = window_->solve(max_iterations, tolerance);
   solved_ = window_->stamp(window_->size() - 1);
   if (failure.empty()) {
@@ -111,7 +112,7 @@ void InsSmoother::solve(int max_iterations, double tolerance, Output& output) {
   beginAnew(output);
 }
 
-/// After a failure: from what the filter beside believes; what the window held is lost.
+/// After a failure: from the belief of the filter beside; the window's nodes are lost.
 void InsSmoother::beginAnew(Output& output) {
   for (std::size_t k = 0; k < window_->size(); ++k)
     for (auto audit : window_->audits(k)) {

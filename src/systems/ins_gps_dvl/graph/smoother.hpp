@@ -26,6 +26,7 @@ class InsSmoother final : public Estimator {
   void process(const Aiding& reading, Output& output) override;
   ImuVerdict process(const ImuReading& reading, Output& output) override;
   void finish(Output& output) override;
+  std::uint64_t corrections() const override { return corrections_; }
   std::string failure() const override { return failure_; }
   /// Of a sliding window: the present, by the filter beside it from where the last solution puts the last node.
   std::unique_ptr<Estimator> clone() const override;
@@ -47,6 +48,7 @@ class InsSmoother final : public Estimator {
   std::optional<InsWindow> window_;
   std::vector<InsChain::Stop> stops_;  // not yet in the window
   Stamp solved_ = 0;
+  std::uint64_t corrections_ = 0;
   Node last_start_;                                                 // the filter's estimate at the last node
   Vector<kNodeStates> filter_error_ = Vector<kNodeStates>::Zero();  // by the last solution, at solved_
   std::string failure_;
@@ -55,7 +57,7 @@ class InsSmoother final : public Estimator {
 /// All estimators: those of makeEstimator and batch, fixed_lag. Null for an unknown name.
 std::unique_ptr<Estimator> makeAnyEstimator(const std::string& name, const Config& config);
 
-/// The names makeAnyEstimator knows.
+/// The names that makeAnyEstimator accepts.
 const std::vector<std::string>& anyEstimatorNames();
 
 }  // namespace sas_motion::ins

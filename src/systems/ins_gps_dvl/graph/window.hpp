@@ -18,7 +18,7 @@ namespace sas_motion::ins {
 /// as a prior.
 class InsWindow {
  public:
-  /// Begins with what a filter believes at a stamp. Weights of readings follow the loss.
+  /// Begins with a filter's belief at a stamp. Weights of readings follow the loss.
   InsWindow(const ErrorModel& model, const Loss& loss, const NavigationState& fused, const Gaussian<kStates>& belief,
             Stamp stamp);
 
@@ -34,7 +34,7 @@ class InsWindow {
   Stamp stamp(std::size_t k) const { return places_[k].stamp; }
   Node node(std::size_t k) const { return values_.at<Node>(places_[k].key); }
   Constants constants() const { return values_.at<Constants>(kConstantsKey); }
-  /// Of the scale [-], the misalignment [rad] and the lever arm [m] of the DVL, each less what it is told to be; 0
+  /// Of the scale [-], the misalignment [rad] and the lever arm [m] of the DVL, each less the configured one; 0
   /// where they are not estimated.
   double dvlScale() const { return values_.exists(kDvlScaleKey) ? values_.at<double>(kDvlScaleKey) : 0; }
   Vector<3> dvlMisalignment() const { return vectorAt(kDvlMisalignmentKey); }
@@ -70,7 +70,7 @@ class InsWindow {
   }
   /// A constant that is zero but for a standard deviation; nothing where that is 0.
   void addConstant(gtsam::Key key, double sigma);
-  /// Where a sensor is from now on; factors that stand keep what they were told.
+  /// Where a sensor is from now on; older factors keep its place at their time.
   void place(Sensor sensor, const Vector<3>& lever_body);
 
   ModelPtr model_;

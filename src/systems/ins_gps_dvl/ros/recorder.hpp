@@ -13,9 +13,9 @@
 
 namespace sas_motion {
 
-/// Turns what the simulator of a system with an INS gives into messages in a bag. The attitude that the inertial unit
-/// states is the true one with the errors of the start. The DVL sits 45 degrees turned, as many do. Where there is no
-/// GPS, a fix and a velocity say where the body starts and how fast.
+/// Turns what the simulator of a system with an INS gives into messages in a bag. The attitude of the IMU is the true
+/// one with the errors of the start. The DVL sits 45 degrees turned, as many do. Where there is no GPS, a fix and a
+/// velocity give the body's start.
 class InsRecorder {
  public:
   InsRecorder(const ins::Scenario& scenario, std::uint64_t seed, ros_side::BagOutput& bag);
@@ -23,7 +23,7 @@ class InsRecorder {
   /// Of a system with the same sensors that simulates them in its own way.
   InsRecorder(const ins::Scenario& scenario, const Simulate& simulate, bool with_gps, ros_side::BagOutput& bag);
 
-  /// The whole scenario; `progress` is told of seconds as they pass.
+  /// The whole scenario; `progress` gets seconds as they pass.
   void record(const std::function<void(double)>& progress);
 
  private:

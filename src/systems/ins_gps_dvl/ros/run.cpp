@@ -66,7 +66,7 @@ std::string NavigationRun::waitsFor() const {
   using Lack = ins::Alignment::Lack;
   const ins::AlignmentOptions& options = settings_.session.alignment;
   const std::string &imu = sources()[kImu].topic, &fix = sources()[kFix].topic, &velocity = sources()[kVelocity].topic;
-  switch (session_.run().alignment().lack()) {
+  switch (session_.alignment().lack()) {
     case Lack::InertialUnit: return lackOf(kImu, "has no message with rates and specific forces");
     case Lack::Attitude: return fmt::format("{} has rates but no orientation, which the start needs", imu);
     case Lack::Fix: return lackOf(kFix, "has no message with a fix");
@@ -83,7 +83,7 @@ std::string NavigationRun::waitsFor() const {
 
 std::vector<std::string> NavigationRun::warnings() const {
   std::vector<std::string> warnings;
-  const ins::InertialCounts& inertial = session_.run().inertial();
+  const ins::InertialCounts& inertial = session_.inertial();
   const auto of = [&](ImuVerdict verdict) { return inertial.verdicts[static_cast<std::size_t>(verdict)]; };
   const std::string& imu = sources()[kImu].topic;
   const double period = settings_.session.config.imu.period;
@@ -98,11 +98,14 @@ std::vector<std::string> NavigationRun::warnings() const {
   if (of(ImuVerdict::Implausible) > 0)
     warnings.push_back(fmt::format("{} readings of {} are beyond imu.max_rate_deg or imu.max_force and were left out",
                                    of(ImuVerdict::Implausible), imu));
-  if (inertial.late + inertial.far + inertial.duplicate > 0)
+  using Refusal = Timeline<ins::InOrder>::Queue::Refusal;
+  const auto late = session_.refused(Refusal::Late), far = session_.refused(Refusal::Far),
+             twice = session_.refused(Refusal::Duplicate);
+  if (late + far + twice > 0)
     warnings.push_back(
         fmt::format("of {} {} readings were later than the lag, {} had a stamp far from the others and {} one that was "
                     "there before",
-                    imu, inertial.late, inertial.far, inertial.duplicate));
+                    imu, late, far, twice));
   if (orientations_without_covariance_ > 0) {
     const ins::Parameters& p = settings_.session.config.parameters;
     warnings.push_back(
@@ -119,7 +122,7 @@ std::vector<std::string> NavigationRun::warnings() const {
 }
 
 std::vector<std::pair<std::string, std::string>> NavigationRun::details() const {
-  const ins::InertialCounts& inertial = session_.run().inertial();
+  const ins::InertialCounts& inertial = session_.inertial();
   const auto& of = inertial.verdicts;
   return {{"imu rate [1/s]", fmt::format("{:.2f}", inertial.mean_period > 0 ? 1 / inertial.mean_period : 0)},
           {"imu integrated, off its rate, over gaps, out of order, implausible",

@@ -7,7 +7,7 @@
 
 namespace sas_motion::ros_side {
 
-/// An INS and its sensors, set up by a configuration file: IMU, GNSS fixes, DVL, depth, and the velocity that GNSS says
+/// An INS and its sensors, set up by a configuration file: IMU, GNSS fixes, DVL, depth, and the velocity of GNSS
 /// at the start.
 class NavigationSystem : public System {
  public:

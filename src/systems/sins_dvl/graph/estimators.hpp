@@ -10,7 +10,7 @@ namespace sas_motion::sins {
 /// attitude, however wrong. Null for an unknown name.
 std::unique_ptr<ins::Estimator> makeAnyEstimator(const std::string& name, const Config& config);
 
-/// The names makeAnyEstimator knows.
+/// The names that makeAnyEstimator accepts.
 const std::vector<std::string>& anyEstimatorNames();
 
 }  // namespace sas_motion::sins

@@ -9,7 +9,7 @@ namespace sas_motion::towfish {
 /// All estimators: those of makeEstimator and batch, gnc, fixed_lag. Null for an unknown name.
 std::unique_ptr<Estimator> makeAnyEstimator(const std::string& name, const Config& config);
 
-/// The names makeAnyEstimator knows.
+/// The names that makeAnyEstimator accepts.
 const std::vector<std::string>& estimatorNames();
 
 }  // namespace sas_motion::towfish

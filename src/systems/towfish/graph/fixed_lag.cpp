@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <exception>
 
-#include "sas_motion/systems/towfish/held_input.hpp"
+#include "sas_motion/systems/towfish/filter_estimator.hpp"
 #include "sas_motion/systems/towfish/smoother_recorder.hpp"
-#include "sas_motion/systems/towfish/start.hpp"
 #include "systems/towfish/graph/factors.hpp"
 
 namespace sas_motion::towfish {
@@ -113,78 +112,28 @@ struct FixedLagSmoother::Window {
 };
 
 FixedLagSmoother::FixedLagSmoother(const Config& config)
-    : config_(config),
-      clock_(config.max_gap, config.fixed_lag.reorder),
-      start_window_(config.start.window),
-      window_(std::make_unique<Window>(config)) {}
+    : config_(config), start_(config), window_(std::make_unique<Window>(config)) {}
 FixedLagSmoother::~FixedLagSmoother() = default;
 
 void FixedLagSmoother::process(const Measurement& z, Output& output) {
-  if (const char* reason = invalidity(z, config_)) {
-    output.audits.push_back(refusal(z, Verdict::Invalid, reason));
-    return;
-  }
-  const auto answer = clock_.judge(z, output);
-  if (answer == ClockGuard::Answer::ClockSet) startAnew(output);
-  if (answer == ClockGuard::Answer::Believed) insert(z, output);
+  if (!window_->started()) return start_.add(z);
+  const Stamp newest = window_->nodes.back().stamp;
+  const bool due = z.stamp > newest && newest - window_->solved >= stampFromSeconds(config_.fixed_lag.solve_interval);
+  if (due) solve(output);  // the newest node is complete
+  window_->add(z);
 }
 
-void FixedLagSmoother::startAnew(Output& output) {
-  const auto agreed = clock_.release();
-  settleAll(output);
-  for (const auto& z : waiting_)
-    output.audits.push_back(refusal(z, Verdict::Stale, "before the first position and heading"));
-  forget();
-  start_window_ = config_.start.window * ClockGuard::kShortenedStart;
-  for (const auto& z : agreed) insert(z, output);
-}
-
-void FixedLagSmoother::insert(const Measurement& z, Output& output) {
-  if (released_ && z.stamp <= *released_) {
-    output.audits.push_back(refusal(z, Verdict::Stale, "older than the smoother's reorder time"));
-    return;
-  }
-  const auto place = std::lower_bound(waiting_.begin(), waiting_.end(), z, before);
-  if (place != waiting_.end() && !before(z, *place)) {
-    output.audits.push_back(refusal(z, Verdict::Invalid, "duplicate stamp"));
-    return;
-  }
-  waiting_.insert(place, z);
-  const double wait = config_.fixed_lag.reorder + (window_->started() ? 0 : start_window_);
-  release(waiting_.back().stamp - stampFromSeconds(wait), output);
-}
-
-void FixedLagSmoother::release(Stamp until, Output& output) {
-  if (!window_->started() && !start(until, output)) return;
-  while (!waiting_.empty() && waiting_.front().stamp <= until) {
-    const Measurement z = waiting_.front();
-    waiting_.pop_front();
-    const bool due = z.stamp > window_->nodes.back().stamp && window_->nodes.back().stamp - window_->solved >=
-                                                                  stampFromSeconds(config_.fixed_lag.solve_interval);
-    if (due) solve(output);  // the newest node is complete
-    released_ = z.stamp;
-    window_->add(z);
-  }
-}
-
-bool FixedLagSmoother::start(Stamp until, Output& output) {
-  while (!waiting_.empty() && waiting_.front().stamp <= until) {
-    const Stamp first = waiting_.front().stamp;
-    std::vector<Measurement> window;
-    for (const auto& z : waiting_)
-      if (z.stamp <= first + stampFromSeconds(start_window_)) window.push_back(z);
-    if (const auto prior = startingBelief(first, window, config_.start, config_.model.current_sigma)) {
-      window_->start(*prior, first);
-      return true;
-    }
-    output.audits.push_back(refusal(waiting_.front(), Verdict::Stale, "before the first position and heading"));
-    released_ = first;
-    waiting_.pop_front();
-  }
-  return false;
+void FixedLagSmoother::endStamp(Output& output) {
+  if (window_->started()) return;
+  const auto prior = start_.find(output);
+  if (!prior) return;
+  window_->start(*prior, start_.gathered().front().stamp);
+  for (const auto& z : start_.gathered()) process(z, output);
+  start_.clear();
 }
 
 void FixedLagSmoother::solve(Output& output) {
+  ++corrections_;
   try {
     window_->solve();
     settle(window_->nodes.back().stamp - stampFromSeconds(config_.fixed_lag.lag), output);
@@ -227,61 +176,41 @@ void FixedLagSmoother::settle(Stamp until, Output& output) {
   }
 }
 
-void FixedLagSmoother::settleAll(Output& output) {
-  if (!waiting_.empty()) release(waiting_.back().stamp, output);
+void FixedLagSmoother::finish(Output& output) {
+  start_.refuseAll(output);
   if (!window_->started()) return;
   solve(output);
   settle(window_->nodes.back().stamp, output);
 }
 
-void FixedLagSmoother::finish(Output& output) {
-  clock_.refuseHeld(output);
-  settleAll(output);
+void FixedLagSmoother::startAnew(Output& output) {
+  finish(output);
+  start_.shorten();
+  window_ = std::make_unique<Window>(config_);
 }
 
-std::optional<Estimate> FixedLagSmoother::current() const {
-  if (!window_->started() || window_->solved == 0) return std::nullopt;
-  return Estimate{window_->nodes.back().stamp, window_->belief};
-}
-
-std::optional<Estimate> FixedLagSmoother::at(Stamp) const { return std::nullopt; }
-
-const char* FixedLagSmoother::setState(const Estimate& state, Output& output) {
-  if (released_ && state.stamp < *released_) return "the stamp is older than the smoother's reorder time";
-  if (!clock_.believable(state.stamp)) return "the stamp is far from those of the measurements";
-  clock_.believe(state.stamp);
-  release(state.stamp, output);
-  if (window_->started()) {
-    solve(output);
-    settle(window_->nodes.back().stamp, output);
-  }
-  for (; !waiting_.empty() && waiting_.front().stamp <= state.stamp; waiting_.pop_front())
-    output.audits.push_back(refusal(waiting_.front(), Verdict::Stale, "before the state that was set"));
+void FixedLagSmoother::setState(const Estimate& state, Output& output) {
+  finish(output);
   auto fresh = std::make_unique<Window>(config_);
   fresh->input = window_->input;
   fresh->start(state.belief, state.stamp);
   fresh->nodes.back().put_out = true;  // the answer there is settled, or the caller's own
   window_ = std::move(fresh);
-  released_ = state.stamp;
-  return nullptr;
+}
+
+std::unique_ptr<Estimator> FixedLagSmoother::clone() const {
+  if (!window_->started()) return nullptr;
+  const auto make = [](const Config& config) {
+    return guarded(RobustKalmanFilter<kStates>(config.filters.robust_kf), config.filters.reset_after);
+  };
+  const Estimate newest{window_->nodes.back().stamp, window_->belief};
+  return std::make_unique<FilterEstimator<Guarded<RobustKalmanFilter<kStates>>>>(make, config_, newest, window_->input);
 }
 
 void FixedLagSmoother::configure(const Config& config) {
   config_ = config;
   window_->config = config;
   window_->filter = RobustKalmanFilter<kStates>(config.filters.robust_kf);
-}
-
-void FixedLagSmoother::reset() {
-  forget();
-  clock_.reset();
-  start_window_ = config_.start.window;
-}
-
-void FixedLagSmoother::forget() {
-  window_ = std::make_unique<Window>(config_);
-  waiting_.clear();
-  released_.reset();
 }
 
 }  // namespace sas_motion::towfish

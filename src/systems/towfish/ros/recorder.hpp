@@ -22,7 +22,7 @@ class TowfishRecorder {
   TowfishRecorder(const towfish::Scenario& scenario, std::uint64_t seed, ros_side::BagOutput& bag)
       : scenario_(scenario), simulator_(scenario, seed), bag_(bag), frame_(scenario.datum) {}
 
-  /// The whole scenario; `progress` is told of seconds as they pass.
+  /// The whole scenario; `progress` gets seconds as they pass.
   void record(const std::function<void(double)>& progress);
 
  private:

@@ -114,8 +114,10 @@ Measurements velocityOf(const Twist& twist, const Transform& T_base_dvl, const C
 class TowfishRun final : public SystemRun {
  public:
   TowfishRun(const System& system, const Config& config, const std::vector<std::string>& names,
-             const tf2::BufferCore& transforms)
-      : SystemRun(system.map, system.sources, transforms), config_(config), session_(config, names, makeAnyEstimator) {
+             const tf2::BufferCore& transforms, bool live)
+      : SystemRun(system.map, system.sources, transforms),
+        config_(config),
+        session_(config, names, makeAnyEstimator, live) {
     listenAt<sensor_msgs::NavSatFix>(kFix, [this](const auto& fix, const Transform& T_base_gnss) {
       if (!frame_.map && hasPosition(fix)) setDatum(geodeticOf(fix));
       return frame_.map && pass(measurementsOf(fix, *frame_.map, T_base_gnss, config_));
@@ -178,8 +180,8 @@ class TowfishSystem final : public System {
   /// A filter with another loss has a name that is not listed.
   bool knows(const std::string& name) const override { return makeAnyEstimator(name, config_) != nullptr; }
   std::unique_ptr<SystemRun> begin(const std::vector<std::string>& names, const tf2::BufferCore& transforms,
-                                   bool) const override {
-    return std::make_unique<TowfishRun>(*this, config_, names, transforms);
+                                   bool live) const override {
+    return std::make_unique<TowfishRun>(*this, config_, names, transforms, live);
   }
 
  private:

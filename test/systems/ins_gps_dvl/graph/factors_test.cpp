@@ -219,13 +219,13 @@ TEST(BeliefFactor, IsExactWhereTheAttitudeIsFarOff) {
   for (const double heading : {30.0, 120.0}) {
     const NavigationState truth = nodeAt(kBegin).state;
     const Vector<3> phi(0.01, -0.02, heading * kRadPerDeg);
-    NavigationState believed = truth;
-    believed.q_nav_body = quaternionOf(-phi) * truth.q_nav_body;
+    NavigationState estimated = truth;
+    estimated.q_nav_body = quaternionOf(-phi) * truth.q_nav_body;
     Parameters parameters;
     parameters.start_heading = 1;
     parameters.start_tilt = 0.01;
-    const ErrorModel model(parameters, believed);
-    const BeliefFactor factor(0, believed, model.start());
+    const ErrorModel model(parameters, estimated);
+    const BeliefFactor factor(0, estimated, model.start());
     gtsam::Values values;
     values.insert(0, nodeOf(truth, Errors::Zero()));
     values.insert(kConstantsKey, Constants(Constants::Zero()));

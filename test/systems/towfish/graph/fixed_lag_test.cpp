@@ -16,6 +16,16 @@ Config configWithLag(const Scenario& scenario, double lag) {
   return config;
 }
 
+/// A fixed-lag smoother in its timeline.
+struct FixedLag {
+  explicit FixedLag(const Config& config)
+      : estimator(new FixedLagSmoother(config)),
+        timeline(testing::timelineOf(std::unique_ptr<Estimator>(estimator), config)) {}
+
+  FixedLagSmoother* estimator;
+  std::unique_ptr<testing::TowfishTimeline> timeline;
+};
+
 /// RMS over time of each state's distance from the batch answer, in the batch's standard deviations.
 StateVector distanceFromBatch(const Output& output, const Config& config,
                               const std::vector<Measurement>& measurements) {
@@ -37,9 +47,9 @@ TEST(FixedLag, WithALagLongerThanTheDataItIsTheBatchSmoother) {
   std::cout << "seed 1\n";
   const auto measurements = testing::simulate(scenario, 1).measurements;
   const Config config = configWithLag(scenario, 100);
-  FixedLagSmoother smoother(config);
-  const auto output = testing::feed(smoother, measurements);
-  EXPECT_EQ(smoother.rebuilds(), 0);
+  FixedLag smoother(config);
+  const auto output = testing::feed(*smoother.timeline, measurements);
+  EXPECT_EQ(smoother.estimator->rebuilds(), 0);
   EXPECT_LT(distanceFromBatch(output, config, measurements).maxCoeff(), 0.05);
 }
 
@@ -48,9 +58,9 @@ TEST(FixedLag, TenSecondsOfLagAreNearlyTheBatchSmoother) {
   std::cout << "seed 2\n";
   const auto measurements = testing::simulate(scenario, 2).measurements;
   const Config config = configWithLag(scenario, 10);
-  FixedLagSmoother smoother(config);
-  const auto output = testing::feed(smoother, measurements);
-  EXPECT_EQ(smoother.rebuilds(), 0);
+  FixedLag smoother(config);
+  const auto output = testing::feed(*smoother.timeline, measurements);
+  EXPECT_EQ(smoother.estimator->rebuilds(), 0);
   const StateVector distance = distanceFromBatch(output, config, measurements);
   EXPECT_LT(distance(kHeading), 0.1) << distance.transpose();
   EXPECT_LT(distance(kSpeed), 0.1) << distance.transpose();
@@ -69,23 +79,23 @@ TEST(FixedLag, ArrivalOrderWithinTheReorderTimeDoesNotMatter) {
   std::sort(arrivals.begin(), arrivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Measurement> shuffled;
   for (const auto& arrival : arrivals) shuffled.push_back(arrival.second);
-  FixedLagSmoother first(config), second(config);
-  const auto in_order = testing::feed(first, measurements), late = testing::feed(second, shuffled);
+  FixedLag first(config), second(config);
+  const auto in_order = testing::feed(*first.timeline, measurements), late = testing::feed(*second.timeline, shuffled);
   EXPECT_EQ(testing::count(late, Verdict::Stale), 0u);
   testing::expectSameEstimates(in_order, late, "shuffled");
 }
 
 TEST(FixedLag, PutsOutEachStampOnceThroughPauses) {
   const auto scenario = testing::survey(25);
-  FixedLagSmoother smoother(configWithLag(scenario, 5));
+  FixedLag smoother(configWithLag(scenario, 5));
   const auto measurements = testing::simulate(scenario, 4).measurements;
   Output output;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
-    smoother.process(measurements[i], output);
-    if (i % 200 == 199) smoother.finish(output);
+    smoother.timeline->process(measurements[i], output);
+    if (i % 200 == 199) smoother.timeline->finish(output);
   }
-  smoother.finish(output);
-  smoother.finish(output);
+  smoother.timeline->finish(output);
+  smoother.timeline->finish(output);
   testing::expectRisingStamps(output);
   std::size_t fused = 0;
   for (const auto& z : measurements) fused += rowsOf(z.sensor) > 0;
@@ -100,10 +110,10 @@ TEST(FixedLag, SurvivesWhatItsSolverCannotSolve) {
     measurements[i].variance.setConstant(1e-24);  // more than its Cholesky can hold
   for (std::size_t i = measurements.size() - 5; i < measurements.size(); ++i)
     measurements[i].variance.setConstant(1e-24);
-  FixedLagSmoother smoother(configWithLag(scenario, 5));
+  FixedLag smoother(configWithLag(scenario, 5));
   Output output;
-  EXPECT_NO_THROW(output = testing::feed(smoother, measurements));
-  EXPECT_GT(smoother.rebuilds(), 0);
+  EXPECT_NO_THROW(output = testing::feed(*smoother.timeline, measurements));
+  EXPECT_GT(smoother.estimator->rebuilds(), 0);
   ASSERT_GT(output.solutions.size(), 100u);
   testing::expectRisingStamps(output);
   for (const auto& estimate : output.solutions) ASSERT_TRUE(estimate.belief.mean.allFinite());
@@ -119,9 +129,9 @@ TEST(FixedLag, BrokenMeasurementsAreCountedAndChangeNothing) {
   mixed.insert(mixed.begin() + 40, bad);
   bad = good[0];  // a position or a heading, long past
   mixed.insert(mixed.begin() + 300, bad);
-  FixedLagSmoother clean(config), dirty(config);
-  const auto output = testing::feed(dirty, mixed);
-  testing::expectSameEstimates(testing::feed(clean, good), output, "without the broken ones");
+  FixedLag clean(config), dirty(config);
+  const auto output = testing::feed(*dirty.timeline, mixed);
+  testing::expectSameEstimates(testing::feed(*clean.timeline, good), output, "without the broken ones");
   EXPECT_EQ(testing::count(output, Verdict::Invalid), 1u);
   EXPECT_EQ(testing::count(output, Verdict::Stale), 1u);
 }
@@ -131,15 +141,15 @@ TEST(FixedLag, RecoversFromAClockThatIsSetWithinFiveSecondsOfData) {
   const auto run = testing::simulate(scenario, 8);
   Config config = configWithLag(scenario, 5);
   for (const double jump : {1.0, -1.0, 3600.0, -3600.0, 3.15e8, -3.15e8}) {
-    FixedLagSmoother smoother(config);
+    FixedLag smoother(config);
     Output output;
     for (const auto& z : run.measurements) {
       const double t = secondsBetween(Simulator::kStart, z.stamp);
       Measurement moved = z;
       if (t > 30) moved.stamp += stampFromSeconds(jump);
-      smoother.process(moved, output);
+      smoother.timeline->process(moved, output);
       if (t < 35) continue;
-      auto now = smoother.current();
+      auto now = smoother.timeline->current();
       ASSERT_TRUE(now) << jump << " s, at " << t;
       now->stamp -= stampFromSeconds(jump);
       ASSERT_GE(secondsBetween(now->stamp, z.stamp), 0) << jump << " s, at " << t;
@@ -158,31 +168,32 @@ TEST(FixedLag, OneWrongStampChangesNothing) {
     Measurement bad = good[100];
     bad.stamp += stampFromSeconds(wrong);
     mixed.insert(mixed.begin() + 100, bad);
-    FixedLagSmoother clean(config), dirty(config);
-    testing::expectSameEstimates(testing::feed(clean, good), testing::feed(dirty, mixed), std::to_string(wrong));
+    FixedLag clean(config), dirty(config);
+    testing::expectSameEstimates(testing::feed(*clean.timeline, good), testing::feed(*dirty.timeline, mixed),
+                                 std::to_string(wrong));
   }
 }
 
 TEST(FixedLag, StartsAgainFromAStateThatIsSet) {
   const auto scenario = testing::survey(40);
   const auto run = testing::simulate(scenario, 10);
-  FixedLagSmoother smoother(configWithLag(scenario, 5));
+  FixedLag smoother(configWithLag(scenario, 5));
   Output output;
   bool done = false;
   for (const auto& z : run.measurements) {
-    smoother.process(z, output);
+    smoother.timeline->process(z, output);
     if (done || secondsBetween(Simulator::kStart, z.stamp) < 20) continue;
     done = true;
-    const auto now = smoother.current();
+    const auto now = smoother.timeline->current();
     ASSERT_TRUE(now);
     Estimate set{z.stamp, now->belief};
     set.belief.mean.head<2>().setConstant(1e4);
     set.belief.covariance = StateMatrix::Identity() * 1e-6;
-    EXPECT_EQ(smoother.setState(set, output), nullptr);
+    EXPECT_EQ(smoother.timeline->setState(set, output), nullptr);
     set.stamp -= stampFromSeconds(10);
-    EXPECT_STREQ(smoother.setState(set, output), "the stamp is older than the smoother's reorder time");
+    EXPECT_STREQ(smoother.timeline->setState(set, output), "the stamp is older than the lag");
   }
-  smoother.finish(output);
+  smoother.timeline->finish(output);
   testing::expectRisingStamps(output);
   std::size_t after = 0;
   for (const auto& estimate : output.solutions) {
@@ -203,15 +214,15 @@ TEST(FixedLag, AnotherLossCountsFromTheNextMeasurementOn) {
   Config config = configWithLag(scenario, 5);
   for (auto& z : measurements)
     if (z.sensor == Sensor::Position && z.stamp % (7 * kNanosecondsPerSecond) < kNanosecondsPerSecond) z.value(0) += 30;
-  FixedLagSmoother one(config), other(config);
+  FixedLag one(config), other(config);
   Output expected, output;
   for (const auto& z : measurements) {
     if (secondsBetween(Simulator::kStart, z.stamp) >= 20 && config.fixed_lag.loss.kind() != LossKind::L2) {
       config.fixed_lag.loss = Loss(LossKind::L2);
-      other.configure(config);
+      other.timeline->configure(config);
     }
-    one.process(z, expected);
-    other.process(z, output);
+    one.timeline->process(z, expected);
+    other.timeline->process(z, output);
   }
   std::size_t before = 0, differ = 0;
   for (std::size_t i = 0; i < std::min(expected.solutions.size(), output.solutions.size()); ++i) {

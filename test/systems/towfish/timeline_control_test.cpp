@@ -28,7 +28,7 @@ TEST_P(Control, ASetStateIsTheStateAtItsStampAndWhatCameLaterIsFusedOnIt) {
   const auto scenario = testing::survey(40);
   const Config config = testing::configFor(scenario);
   const auto measurements = testing::simulate(scenario, 21).measurements;
-  const auto estimator = makeEstimator(GetParam(), config), untouched = makeEstimator(GetParam(), config);
+  const auto estimator = testing::timelineOf(GetParam(), config), untouched = testing::timelineOf(GetParam(), config);
   bool done = false;
   Output output, expected;
   for (const auto& z : measurements) {
@@ -51,7 +51,7 @@ TEST_P(Control, ASetStateIsTheStateAtItsStampAndWhatCameLaterIsFusedOnIt) {
 
 TEST_P(Control, ASetStateReplacesTheStart) {
   const auto measurements = testing::simulate(testing::survey(10), 22).measurements;
-  const auto estimator = makeEstimator(GetParam(), testing::configFor(testing::survey(10)));
+  const auto estimator = testing::timelineOf(GetParam(), testing::configFor(testing::survey(10)));
   Output output;
   EXPECT_EQ(estimator->setState(elsewhere(measurements.front().stamp - 1), output), nullptr);
   estimator->process(measurements.front(), output);
@@ -61,16 +61,17 @@ TEST_P(Control, ASetStateReplacesTheStart) {
 
 TEST(Control, AStampThatIsSettledOrFarAwayIsRefused) {
   const auto scenario = testing::survey(30);
-  const auto estimator = makeEstimator("kf", testing::configFor(scenario));
+  const auto estimator = testing::timelineOf("kf", testing::configFor(scenario));
   Output output = feed(*estimator, testing::simulate(scenario, 23).measurements);
   const auto before = estimator->current();
+  ASSERT_TRUE(before);
   EXPECT_STREQ(estimator->setState(elsewhere(before->stamp - kNanosecondsPerSecond), output),
                "the stamp is older than the lag");
   EXPECT_STREQ(estimator->setState(elsewhere(before->stamp + 3600 * kNanosecondsPerSecond), output),
                "the stamp is far from those of the measurements");
   EXPECT_EQ(estimator->current()->belief.mean, before->belief.mean);
   EXPECT_EQ(estimator->setState(elsewhere(before->stamp), output), nullptr);
-  EXPECT_STREQ(makeEstimator("rts", {})->setState(elsewhere(before->stamp), output), "it keeps no present state");
+  EXPECT_STREQ(testing::timelineOf("rts", {})->setState(elsewhere(before->stamp), output), "it keeps no present state");
 }
 
 TEST(Control, OtherSettingsCountFromTheNextMeasurementOnAndNotInAReplay) {
@@ -79,7 +80,7 @@ TEST(Control, OtherSettingsCountFromTheNextMeasurementOnAndNotInAReplay) {
   Config config = testing::configFor(scenario), changed = config;
   changed.filters.robust_kf.loss = Loss(LossKind::L2);
   const auto measurements = testing::simulate(scenario, 24).measurements;
-  const auto straight = makeEstimator("robust_kf", config), estimator = makeEstimator("robust_kf", config);
+  const auto straight = testing::timelineOf("robust_kf", config), estimator = testing::timelineOf("robust_kf", config);
   Output expected, output;
   std::size_t compared = 0;
   Measurement late;

@@ -21,8 +21,8 @@ Measurement reading(Sensor sensor, double seconds, const Vector<2>& value, doubl
 }
 
 /// A vessel that lies still and heads `heading`, ten readings a second for ten seconds.
-std::unique_ptr<Estimator> lyingStill(double heading, const Config& config = {}) {
-  auto estimator = makeEstimator("kf", config);
+std::unique_ptr<testing::TowfishTimeline> lyingStill(double heading, const Config& config = {}) {
+  auto estimator = testing::timelineOf("kf", config);
   Output output;
   for (int i = 0; i <= 100; ++i) {
     estimator->process(reading(Sensor::Position, 0.1 * i, {0, 0}, 0.1), output);
@@ -32,7 +32,7 @@ std::unique_ptr<Estimator> lyingStill(double heading, const Config& config = {})
   return estimator;
 }
 
-TEST(FilterTimeline, AnswersBetweenMeasurementsByTheModel) {
+TEST(TowfishTimeline, AnswersBetweenMeasurementsByTheModel) {
   const Config config;
   const auto estimator = lyingStill(0.3, config);
   const Model model(config.model);
@@ -49,8 +49,8 @@ TEST(FilterTimeline, AnswersBetweenMeasurementsByTheModel) {
   EXPECT_FALSE(estimator->at(at(-10)));
 }
 
-TEST(FilterTimeline, SaysNothingBeforeItStarts) {
-  const auto estimator = makeEstimator("kf", {});
+TEST(TowfishTimeline, SaysNothingBeforeItStarts) {
+  const auto estimator = testing::timelineOf("kf", {});
   EXPECT_FALSE(estimator->current());
   EXPECT_FALSE(estimator->at(kBegin));
   Output output;
@@ -59,7 +59,7 @@ TEST(FilterTimeline, SaysNothingBeforeItStarts) {
   EXPECT_TRUE(output.solutions.empty());
 }
 
-TEST(FilterTimeline, ATurnRateIsBelievedForItsHoldTimeOnly) {
+TEST(TowfishTimeline, ATurnRateIsBelievedForItsHoldTimeOnly) {
   Config config;
   config.input_hold = 1;
   const auto estimator = lyingStill(0, config);
@@ -71,9 +71,9 @@ TEST(FilterTimeline, ATurnRateIsBelievedForItsHoldTimeOnly) {
   EXPECT_NEAR(estimator->at(at(11.10))->belief.mean(kHeading) - heading, 0, 1e-9);  // expired: no longer known
 }
 
-TEST(FilterTimeline, FollowsAHeadingThroughSouthAThousandTimes) {
+TEST(TowfishTimeline, FollowsAHeadingThroughSouthAThousandTimes) {
   for (const auto& name : testing::filterNames()) {
-    const auto estimator = makeEstimator(name, {});
+    const auto estimator = testing::timelineOf(name, {});
     Random random(211);
     Output output;
     const double rate = 0.5, step = 0.2;
@@ -99,7 +99,7 @@ TEST(FilterTimeline, FollowsAHeadingThroughSouthAThousandTimes) {
   }
 }
 
-TEST(FilterTimeline, EstimatorsAreMadeByName) {
+TEST(TowfishTimeline, EstimatorsAreMadeByName) {
   const Config config;
   for (const auto& name : testing::filterNames()) EXPECT_TRUE(makeEstimator(name, config)) << name;
   for (const auto& loss : lossNames()) EXPECT_TRUE(makeEstimator("robust_kf_" + loss, config)) << loss;

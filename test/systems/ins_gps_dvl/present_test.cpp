@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/ins_gps_dvl/head.hpp"
-
 #include <gtest/gtest.h>
 
 #include "systems/ins_gps_dvl/stream.hpp"
@@ -17,55 +15,50 @@ bool same(const NavigationSolution& a, const NavigationSolution& b) {
          a.state.q_nav_body.coeffs() == b.state.q_nav_body.coeffs() && *a.covariance == *b.covariance;
 }
 
-void feed(LiveRun& live, const std::vector<Reading>& stream) {
-  for (const auto& reading : stream) live.process(reading);
-}
-
 /// The first part of a stream, whose last reading is of the IMU.
 std::vector<Reading> until(std::vector<Reading> stream, double time) {
   while (!isInertial(stream.back()) || stampOf(stream.back()) > kEpoch + stampFromSeconds(time)) stream.pop_back();
   return stream;
 }
 
-TEST(InsHead, ThePresentIsWhatSettlesLater) {
+TEST(InsPresent, ThePresentIsWhatSettlesLater) {
   const Scenario scenario = surveyOf(40);
   const auto stream = streamOf(scenario, 1);
-  LiveRun live(optionsOf(scenario), {"kf27"}, makeEstimator);
+  EstimatorRun live(optionsOf(scenario), "kf27", true);
   std::vector<NavigationSolution> present;
   for (const auto& reading : stream) {
     live.process(reading);
-    if (isInertial(reading) && live.current(0) && live.current(0)->stamp == stampOf(reading))
-      present.push_back(*live.current(0));
+    if (isInertial(reading) && live.timeline.current() && live.timeline.current()->stamp == stampOf(reading))
+      present.push_back(*live.timeline.current());
   }
   live.finish();
-  const auto& solutions = live.run().lanes()[0].output.solutions;
+  const auto& solutions = live.output.solutions;
   ASSERT_GT(present.size(), 3600u);
   ASSERT_LT(present.size(), solutions.size());  // it is there a lag after the start
   for (std::size_t i = 1; i <= present.size(); ++i)
     ASSERT_TRUE(same(present[present.size() - i], solutions[solutions.size() - i])) << i;
 }
 
-TEST(InsHead, AnyOrderInsideTheLagGivesTheSamePresent) {
+TEST(InsPresent, AnyOrderInsideTheLagGivesTheSamePresent) {
   const Scenario scenario = surveyOf(40);
   const auto stream = until(streamOf(scenario, 2), 37.43);
-  LiveRun sorted(optionsOf(scenario), {"robust_kf27"}, makeEstimator),
-      late(optionsOf(scenario), {"robust_kf27"}, makeEstimator);
-  feed(sorted, stream);
-  feed(late, shuffled(stream, 1.9));
-  ASSERT_TRUE(sorted.current(0) && late.current(0));
-  EXPECT_EQ(sorted.current(0)->stamp, stampOf(stream.back()));
-  EXPECT_TRUE(same(*sorted.current(0), *late.current(0)));
+  EstimatorRun sorted(optionsOf(scenario), "robust_kf27", true), late(optionsOf(scenario), "robust_kf27", true);
+  sorted.process(stream);
+  late.process(shuffled(stream, 1.9));
+  ASSERT_TRUE(sorted.timeline.current() && late.timeline.current());
+  EXPECT_EQ(sorted.timeline.current()->stamp, stampOf(stream.back()));
+  EXPECT_TRUE(same(*sorted.timeline.current(), *late.timeline.current()));
 }
 
-TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
+TEST(InsPresent, StatesAtPingTimesAreThoseOfTheMotion) {
   // GIVEN a run in waves, WHEN states are asked for between the stamps of the IMU, THEN their errors are
   // those at the stamps around them.
   Scenario scenario = surveyOf(40);
-  LiveRun live(optionsOf(scenario), {"kf27"}, makeEstimator);
-  feed(live, streamOf(scenario, 1));
+  EstimatorRun live(optionsOf(scenario), "kf27", true);
+  live.process(streamOf(scenario, 1));
   const Trajectory trajectory(scenario.track, scenario.duration);
   const auto error = [&](double time) {
-    const auto solution = live.at(0, kEpoch + stampFromSeconds(time));
+    const auto solution = live.timeline.at(kEpoch + stampFromSeconds(time));
     EXPECT_TRUE(solution.has_value()) << time;
     const NavigationState truth = trajectory.at(time).state;
     return std::pair(displacement(truth, solution->state), attitudeError(solution->state.q_nav_body, truth.q_nav_body));
@@ -86,25 +79,25 @@ TEST(InsHead, StatesAtPingTimesAreThoseOfTheMotion) {
   EXPECT_LT(worst_attitude, 5e-6);
 }
 
-TEST(InsHead, StatesAtItsStampsAreItsSolutionsAndThoseOutsideAreNone) {
+TEST(InsPresent, StatesAtItsStampsAreItsSolutionsAndThoseOutsideAreNone) {
   const Scenario scenario = surveyOf(40);
   const auto stream = until(streamOf(scenario, 1), 35);
-  LiveRun live(optionsOf(scenario), {"kf27"}, makeEstimator);
+  EstimatorRun live(optionsOf(scenario), "kf27", true);
   std::vector<NavigationSolution> present;
   for (const auto& reading : stream) {
     live.process(reading);
-    if (isInertial(reading) && live.current(0)) present.push_back(*live.current(0));
+    if (isInertial(reading) && live.timeline.current()) present.push_back(*live.timeline.current());
   }
   for (std::size_t i = 1; i < 190; i += 7) {
     const NavigationSolution& asked = present[present.size() - i];
-    const auto answer = live.at(0, asked.stamp);
+    const auto answer = live.timeline.at(asked.stamp);
     ASSERT_TRUE(answer);
     EXPECT_TRUE(same(*answer, asked)) << i;
   }
   const Stamp newest = present.back().stamp;
-  EXPECT_FALSE(live.at(0, newest - 3 * kNanosecondsPerSecond));
-  EXPECT_FALSE(live.at(0, newest + 2 * kNanosecondsPerSecond));
-  const auto ahead = live.at(0, newest + kNanosecondsPerSecond / 2);
+  EXPECT_FALSE(live.timeline.at(newest - 3 * kNanosecondsPerSecond));
+  EXPECT_FALSE(live.timeline.at(newest + 2 * kNanosecondsPerSecond));
+  const auto ahead = live.timeline.at(newest + kNanosecondsPerSecond / 2);
   ASSERT_TRUE(ahead);
   EXPECT_GT((*ahead->covariance)(0, 0), (*present.back().covariance)(0, 0));
   const TruthSample truth = Trajectory(scenario.track, scenario.duration).at(35.5);

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The sas_motion authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sas_motion/systems/ins_gps_dvl/run.hpp"
-
 #include <gtest/gtest.h>
 
 #include "support.hpp"
@@ -36,11 +34,11 @@ double positionError(const Scenario& scenario, const NavigationSolution& solutio
 }
 
 Lack lackOf(const std::vector<Reading>& stream, const SessionOptions& options) {
-  EstimatorRun session(options, {"kf27"}, makeEstimator);
-  for (const auto& reading : stream) session.process(reading);
+  EstimatorRun session(options);
+  session.process(stream);
   session.finish();
-  EXPECT_TRUE(session.lanes()[0].output.solutions.empty());
-  return session.alignment().lack();
+  EXPECT_TRUE(session.output.solutions.empty());
+  return session.estimator->alignment().lack();
 }
 
 TEST(InsSession, StartsAtTheFirstFixAfterAttitudeAndVelocity) {
@@ -203,14 +201,14 @@ TEST(InsSession, DuplicatesChangeNothing) {
     doubled.push_back(stream[i]);
     if (i % 10 == 0) doubled.push_back(stream[i]);
   }
-  EstimatorRun session(optionsOf(scenario), {"kf27"}, makeEstimator);
-  for (const auto& reading : doubled) session.process(reading);
+  EstimatorRun session(optionsOf(scenario));
+  session.process(doubled);
   session.finish();
   const Output once = settled(stream, optionsOf(scenario));
-  const auto& solutions = session.lanes()[0].output.solutions;
+  const auto& solutions = session.output.solutions;
   ASSERT_EQ(solutions.size(), once.solutions.size());
   EXPECT_TRUE(solutions.back().state == once.solutions.back().state);
-  EXPECT_GT(session.inertial().duplicate, 0u);
+  EXPECT_GT(session.timeline.refused(Timeline<InOrder>::Queue::Refusal::Duplicate), 0u);
 }
 
 TEST(InsSession, AGapOfTheInertialUnitIsBridgedCountedAndRecoveredFrom) {
@@ -219,23 +217,23 @@ TEST(InsSession, AGapOfTheInertialUnitIsBridgedCountedAndRecoveredFrom) {
     const double time = secondsBetween(kEpoch, stampOf(r));
     return isInertial(r) && time > 40 && time < 42;
   };
-  EstimatorRun session(optionsOf(scenario), {"kf27"}, makeEstimator);
-  for (const auto& reading : without(streamOf(scenario, 1), in_gap)) session.process(reading);
+  EstimatorRun session(optionsOf(scenario));
+  session.process(without(streamOf(scenario, 1), in_gap));
   session.finish();
-  EXPECT_EQ(session.inertial().verdicts[static_cast<std::size_t>(ImuVerdict::Bridged)], 1u);
-  EXPECT_NEAR(session.inertial().longest_gap, 2, 1e-6);
-  EXPECT_LT(positionError(scenario, session.lanes()[0].output.solutions.back()), 8);
+  EXPECT_EQ(session.estimator->inertial().verdicts[static_cast<std::size_t>(ImuVerdict::Bridged)], 1u);
+  EXPECT_NEAR(session.estimator->inertial().longest_gap, 2, 1e-6);
+  EXPECT_LT(positionError(scenario, session.output.solutions.back()), 8);
 }
 
 TEST(InsSession, AWrongRateIsCounted) {
   const Scenario scenario = surveyOf(20);
   int count = 0;
   const auto stream = without(streamOf(scenario, 1), [&](const Reading& r) { return isInertial(r) && ++count % 2; });
-  EstimatorRun session(optionsOf(scenario), {"kf27"}, makeEstimator);
-  for (const auto& reading : stream) session.process(reading);
+  EstimatorRun session(optionsOf(scenario));
+  session.process(stream);
   session.finish();
-  EXPECT_NEAR(session.inertial().mean_period, 0.02, 1e-9);
-  EXPECT_GT(session.inertial().verdicts[static_cast<std::size_t>(ImuVerdict::OffRate)], 900u);
+  EXPECT_NEAR(session.estimator->inertial().mean_period, 0.02, 1e-9);
+  EXPECT_GT(session.estimator->inertial().verdicts[static_cast<std::size_t>(ImuVerdict::OffRate)], 900u);
 }
 
 TEST(InsSession, OneWrongStampChangesLittleAndAClockThatIsSetStartsAnew) {

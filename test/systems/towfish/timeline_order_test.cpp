@@ -106,7 +106,7 @@ TEST(Order, OlderThanTheLagIsStaleAndChangesNothing) {
 
 TEST(Order, EstimatesComeInTimeOrderOnceAStamp) {
   const auto scenario = testing::survey(30);
-  const auto estimator = makeEstimator("robust_kf", testing::configFor(scenario));
+  const auto estimator = testing::timelineOf("robust_kf", testing::configFor(scenario));
   const auto measurements = testing::simulate(scenario, 7).measurements;
   Output output;
   for (std::size_t i = 0; i < measurements.size(); ++i) {

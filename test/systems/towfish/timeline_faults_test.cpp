@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sas_motion/systems/towfish/session.hpp"
 #include "systems/towfish/feeding.hpp"
 
 namespace sas_motion::towfish {
@@ -78,7 +79,7 @@ TEST_P(Faults, OutrageousCovariancesAndGapsDoNotBreakIt) {
 TEST_P(Faults, WhenTheClockIsSetBackItStartsAgain) {
   auto scenario = testing::survey(60);
   const auto run = testing::simulate(scenario, 3);
-  const auto estimator = makeEstimator(GetParam(), testing::configFor(scenario));
+  const auto estimator = testing::timelineOf(GetParam(), testing::configFor(scenario));
   feed(*estimator, run.measurements);
   auto again = run.measurements;
   const Stamp back = 3600 * kNanosecondsPerSecond;
@@ -109,14 +110,23 @@ TEST_P(Faults, OneStampFarInTheFutureDoesNotStopIt) {
 
 TEST(Faults, ResetForgetsEverything) {
   const auto scenario = testing::survey(30);
-  const Config config = testing::configFor(scenario);
-  const auto measurements = testing::simulate(scenario, 5).measurements;
-  const auto estimator = makeEstimator("mixture_kf", config);
-  feed(*estimator, testing::simulate(scenario, 6).measurements);
-  estimator->reset();
-  EXPECT_FALSE(estimator->current());
-  testing::expectSameEstimates(feed("mixture_kf", config, measurements), feed(*estimator, measurements),
-                               "after a reset");
+  const OutputFrame frame{LocalFrame(Geodetic{10, 20, 0}), {}};
+  const auto solutions = [&](TowfishSession& session, std::uint64_t seed) {
+    for (const auto& z : testing::simulate(scenario, seed).measurements) session.process(z);
+    session.finish();
+    sas_motion::Output output;
+    session.takeSettled(0, frame, output);
+    return output.solutions;
+  };
+  TowfishSession session(testing::configFor(scenario), {"mixture_kf"}, makeEstimator),
+      fresh(testing::configFor(scenario), {"mixture_kf"}, makeEstimator);
+  solutions(session, 6);
+  ASSERT_TRUE(session.current(0, frame));
+  session.reset();
+  EXPECT_FALSE(session.current(0, frame));
+  const auto expected = solutions(fresh, 5), again = solutions(session, 5);
+  ASSERT_EQ(expected.size(), again.size());
+  for (std::size_t i = 0; i < again.size(); ++i) ASSERT_EQ(expected[i].position_map, again[i].position_map) << i;
 }
 
 TEST(Faults, WithoutAPositionOrAHeadingItStaysSilentAndSaysWhy) {
