@@ -36,7 +36,7 @@ std::vector<Measurement> measurements(int nodes) {
   scenario.sensor(Sensor::Position) = {10, 0, 1, law};
   scenario.sensor(Sensor::Heading) = {10, 0, 0.5 * kRadPerDeg, law};
   scenario.sensor(Sensor::Speed) = {10, 0, 0.05, law};
-  scenario.gnss_lever_arm_body << 5, 2;
+  scenario.source(Sensor::Position).lever_arm_body << 5, 2;
   std::vector<Measurement> all;
   Simulator simulator(scenario, 1);
   while (simulator.next())

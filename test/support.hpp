@@ -90,7 +90,7 @@ double relativeDifference(const A& a, const B& b) {
 inline towfish::Scenario zhu2007(double duration, const NoiseMix& noise = {}) {
   auto scenario = towfish::Scenario::fromFile(std::string(SAS_MOTION_SOURCE_DIR) + "/config/scenarios/zhu2007.yaml");
   scenario.duration = duration;
-  for (auto& sensor : scenario.sensors) sensor.noise = noise;
+  for (auto& sensor : scenario.sources) sensor.noise = noise;
   return scenario;
 }
 

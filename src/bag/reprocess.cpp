@@ -24,8 +24,8 @@ constexpr std::size_t kBatch = 256;  // readings handed to an estimator at once
 /// What to do with the messages of a connection.
 struct Route {
   enum Kind { kAnother, kOfAnEarlierRun, kTransforms, kSensor } kind = kAnother;
-  std::size_t source = 0;               // of a sensor
-  std::optional<std::uint32_t> output;  // its connection there
+  std::vector<std::size_t> sources = {};  // of sensors: several may read one topic
+  std::optional<std::uint32_t> output;    // its connection there
 };
 
 std::vector<Route> routesOf(const std::vector<BagConnection>& connections, const std::vector<MessageSource>& sources,
@@ -35,16 +35,14 @@ std::vector<Route> routesOf(const std::vector<BagConnection>& connections, const
     Route& route = routes[connection.index];
     if (connection.type == "tf2_msgs/TFMessage") route.kind = Route::kTransforms;
     if (isEstimate(connection.topic, estimators)) route.kind = Route::kOfAnEarlierRun;
-    const auto source = std::find_if(sources.begin(), sources.end(), [&](const MessageSource& s) {
-      return s.topic == connection.topic && s.md5 == connection.md5sum;
-    });
-    if (source == sources.end()) continue;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+      if (sources[i].topic == connection.topic && sources[i].md5 == connection.md5sum) route.sources.push_back(i);
+    if (route.sources.empty()) continue;
     if (route.kind == Route::kOfAnEarlierRun)
       throw std::runtime_error(
           fmt::format("{}: topic {} is a sensor's, and an estimator would write it too; leave that estimator out", file,
                       connection.topic));
     route.kind = Route::kSensor;
-    route.source = static_cast<std::size_t>(source - sources.begin());
   }
   return routes;
 }
@@ -89,7 +87,8 @@ class BagRun {
   }
 
   void take(const Route& route, const BagReader& bag, const BagMessage& message) {
-    bag.read(message, [&](ros::serialization::IStream& stream) { run_->take(route.source, stream); });
+    for (const std::size_t source : route.sources)
+      bag.read(message, [&](ros::serialization::IStream& stream) { run_->take(source, stream); });
     if (run_->session().unfed() < kBatch) return;
     run_->session().feed();
     drain();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace sas_motion::ros_side {
@@ -59,6 +60,7 @@ std::vector<MessageSource> findTopics(const std::vector<BagConnection>& connecti
                                       const std::string& file) {
   using Need = MessageSource::Need;
   TypeByTopic there = sensorsIn(connections);
+  std::set<std::string> named;
   for (auto& source : sources) {
     if (source.need != Need::NamedAlone) continue;
     const auto found = std::find_if(there.begin(), there.end(), [&](const auto& topic) {
@@ -66,11 +68,12 @@ std::vector<MessageSource> findTopics(const std::vector<BagConnection>& connecti
     });
     source.topic = found == there.end() ? "" : found->first;
     if (found == there.end()) continue;
+    named.insert(found->first);
     if (found->second != source.type)
       throw std::runtime_error(fmt::format("{}: topic {} is a {} but must be a {} (topics.{})", file, found->first,
                                            found->second, source.type, source.name));
-    there.erase(found);  // it is no other source's
   }
+  for (const auto& topic : named) there.erase(topic);  // they are no other source's
   std::vector<std::string> missing;
   for (auto& source : sources) {
     if (source.need == Need::NamedAlone) continue;

@@ -87,17 +87,17 @@ void GaussianSumFilter<N>::branch(GaussianBlock<N>& block) const {
 }
 
 template <int N>
-bool GaussianSumFilter<N>::modal(std::uint32_t channel) const {
+bool GaussianSumFilter<N>::modal(std::uint64_t channel) const {
   return options_.mode.rate > 0 && (options_.mode.rows >> channel & 1) != 0;
 }
 
 /// Before its first row a mode is on with its stationary probability, since a spell can begin before the first reading.
 template <int N>
-void GaussianSumFilter<N>::askMode(Belief& belief, std::uint32_t channel, double time, GaussianSumRow<N>& row) const {
+void GaussianSumFilter<N>::askMode(Belief& belief, std::uint64_t channel, double time, GaussianSumRow<N>& row) const {
   const BiasMode& mode = options_.mode;
   auto& asked = belief.mode_time[mode.common ? 0 : channel];
   const double elapsed = time - asked.value_or(time), share = mode.rate * mode.length / (1 + mode.rate * mode.length);
-  row.mode = mode.common ? mode.rows : 1u << channel;
+  row.mode = mode.common ? mode.rows : std::uint64_t{1} << channel;
   row.begins = asked ? -std::expm1(-mode.rate * elapsed) : share;
   row.ends = std::min(1.0, elapsed / mode.length);
   asked = time;
@@ -111,7 +111,7 @@ Update<GaussianSum<N>, M> GaussianSumFilter<N>::update(const Belief& prior, cons
   if (result.verdict == Verdict::Invalid) return result;
   Belief& belief = result.belief;
   belief.start();
-  const auto channel = [&](int row) { return static_cast<std::uint32_t>(Belief::kRows * z.source + row); };
+  const auto channel = [&](int row) { return static_cast<std::uint64_t>(Belief::kRows * z.source + row); };
   Vector<N> together = Vector<N>::Zero();  // states whose rows share a mode
   for (int row = 0; row < M; ++row) {
     const Vector<N> h = z.H.row(row).cwiseAbs();

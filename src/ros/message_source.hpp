@@ -23,7 +23,9 @@ struct MessageSource {
   std::string use;    ///< what is missing without it, in plain words
   Need need = Need::Optional;
   bool enabled = true;
-  bool may_fall_silent = false;  ///< it is needed at the start alone
+  bool may_fall_silent = false;      ///< it is needed at the start alone
+  bool must_speak = false;           ///< a user listed it: say where no message has come
+  std::string wanted_topic = topic;  ///< the configured one, also where a bag has none
 };
 
 /// A source of messages of this type.

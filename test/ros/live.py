@@ -25,10 +25,10 @@ PATIENT = {"lag": 30, "frames": {"timeout": 3600}, "estimators": {"fixed_lag": {
 class Sensors:
     """Publishers of the sensors' topics."""
 
-    def __init__(self, session):
+    def __init__(self, session, types=None):
         self.session = session
         self.transforms = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
-        self.publishers = {topic: rospy.Publisher(topic, kind, queue_size=10000) for topic, kind in TYPES.items()}
+        self.publishers = {topic: rospy.Publisher(topic, kind, queue_size=10000) for topic, kind in (types or TYPES).items()}
 
     def feed(self, messages):
         """Publishes (topic, message, ...) at some 2000 messages a second."""
@@ -38,9 +38,9 @@ class Sensors:
                 time.sleep(0.01)
 
 
-def measurements(bag, seconds=1e9):
+def measurements(bag, seconds=1e9, types=None):
     """(topic, message) of the sensors in a bag's first seconds."""
-    found = [(topic, message) for topic, message, _ in toolbox.messages(bag, *TYPES)]
+    found = [(topic, message) for topic, message, _ in toolbox.messages(bag, *(types or TYPES))]
     begin = found[0][1].header.stamp
     return [(topic, message) for topic, message in found if (message.header.stamp - begin).to_sec() < seconds]
 

@@ -19,7 +19,7 @@ struct Hypothesis {
   Vector<N> deviation = Vector<N>::Zero();  ///< from the summary's mean; small, so that wrapped states can be added
   Matrix<N> covariance = Matrix<N>::Zero();
   double log_weight = 0;
-  std::uint32_t biased = 0;  ///< rows that are in their bias mode, a bit each
+  std::uint64_t biased = 0;  ///< rows that are in their bias mode, a bit each
   std::size_t scale = 0;     ///< of the process noise in the present epoch
 };
 

@@ -24,7 +24,7 @@ struct BiasMode {
   double length = 1;             ///< [s]
   std::optional<double> bias{};  ///< in standard deviations; without a value it is unknown and the row is not used [-]
   bool common = false;           ///< all rows have spells at the same time; else each on its own
-  std::uint32_t rows = std::numeric_limits<std::uint32_t>::max();  ///< rows that have spells: bit 4 source + row
+  std::uint64_t rows = std::numeric_limits<std::uint64_t>::max();  ///< rows that have spells: bit 4 source + row
 };
 
 /// The laws of the noise, and the number of hypotheses.
@@ -66,8 +66,8 @@ class GaussianSumFilter {
 
  private:
   void branch(GaussianBlock<N>& block) const;
-  bool modal(std::uint32_t channel) const;
-  void askMode(Belief& belief, std::uint32_t channel, double time, GaussianSumRow<N>& row) const;
+  bool modal(std::uint64_t channel) const;
+  void askMode(Belief& belief, std::uint64_t channel, double time, GaussianSumRow<N>& row) const;
   void endEpoch(Belief& belief, double time) const;
 
   GaussianSumOptions options_;

@@ -26,6 +26,6 @@ struct LinearMeasurement {
   int source = 0;   ///< number of the sensor, below kMaxSources, for filters that keep something of each sensor
 };
 
-constexpr int kMaxSources = 8;
+constexpr int kMaxSources = 16;
 
 }  // namespace sas_motion

@@ -11,13 +11,13 @@ namespace {
 
 /// The information of the readings of each sensor, and of the process noise.
 struct Information {
-  std::vector<MeasurementInformation> sensors;  // by Sensor
+  std::vector<MeasurementInformation> sensors;  // by source
   ProcessInformation process;
 
   /// Of the rows of one reading, over Gaussian ones.
   Vector<2> factors(const LabelledMeasurement& labelled) const {
     const double time = secondsBetween(Simulator::kStart, labelled.z.stamp);
-    const auto& sensor = sensors[static_cast<std::size_t>(labelled.z.sensor)];
+    const auto& sensor = sensors[static_cast<std::size_t>(sourceOf(labelled.z))];
     return {sensor.of(labelled.variance[0], time), sensor.of(labelled.variance[1], time)};
   }
 
@@ -26,14 +26,15 @@ struct Information {
     return !process.genie &&
            std::equal(a.measurements().begin(), a.measurements().end(), b.measurements().begin(),
                       b.measurements().end(), [this](const LabelledMeasurement& x, const LabelledMeasurement& y) {
-                        return x.z.stamp == y.z.stamp && x.z.sensor == y.z.sensor && factors(x) == factors(y);
+                        return x.z.stamp == y.z.stamp && x.z.sensor == y.z.sensor && sourceOf(x.z) == sourceOf(y.z) &&
+                               factors(x) == factors(y);
                       });
   }
 };
 
 Information informationOf(const Scenario& scenario) {
   Information information{{}, processInformation(scenario.process, kStates, scenario.step)};
-  for (const auto& sensor : scenario.sensors) information.sensors.emplace_back(sensor.noise);
+  for (const auto& sensor : scenario.sources) information.sensors.emplace_back(sensor.noise);
   return information;
 }
 

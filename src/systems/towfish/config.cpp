@@ -34,6 +34,30 @@ void readSensor(YamlSection yaml, Sensor sensor, SensorOptions& options) {
   yaml.finish();
 }
 
+void readSensors(YamlSection& yaml, Config& config) {
+  if (!yaml.has("sources")) {
+    auto sensors = yaml.section("sensors");
+    for (int i = 0; i < kSensors; ++i) {
+      const auto sensor = static_cast<Sensor>(i);
+      readSensor(sensors.section(sensorName(sensor)), sensor, config.sensor(sensor));
+    }
+    return sensors.finish();
+  }
+  for (const char* key : {"sensors", "topics"})
+    if (yaml.has(key)) yaml.fail(key, "and sources are two ways to say the same; leave one out");
+  SourceKinds kinds{{}, {sensorName(Sensor::Heading), sensorName(Sensor::TurnRate)}, {}};
+  for (int i = 0; i < kSensors; ++i) kinds.all.emplace_back(sensorName(static_cast<Sensor>(i)));
+  kinds.required = {sensorName(Sensor::Position), sensorName(Sensor::Heading)};
+  config.sources = readSources(yaml, kinds, {config.sensors.begin(), config.sensors.end()});
+  const std::vector<std::string> of_imu = kinds.angles;
+  for (const auto& source : config.sources)
+    if (source.measures.size() > 1 && source.measures != of_imu)
+      yaml.fail("sources", fmt::format("has {}, which measures {}; only heading and turn_rate come in one message",
+                                       source.name, fmt::join(source.measures, " and ")));
+  if (config.sources.size() > kMaxSources)
+    yaml.fail("sources", fmt::format("has {} sources but may have {}", config.sources.size(), kMaxSources));
+}
+
 void readSmoother(YamlSection yaml, SmootherOptions& options) {
   readLoss(yaml, options.loss);
   yaml.integer("max_iterations", options.max_iterations, 1, 10000);
@@ -78,12 +102,7 @@ void readMotionParameters(YamlSection yaml, MotionParameters& p) {
 
 void readConfig(YamlSection& yaml, Config& config) {
   readMotionParameters(yaml.section("model"), config.model);
-  auto sensors = yaml.section("sensors");
-  for (int i = 0; i < kSensors; ++i) {
-    const auto sensor = static_cast<Sensor>(i);
-    readSensor(sensors.section(sensorName(sensor)), sensor, config.sensor(sensor));
-  }
-  sensors.finish();
+  readSensors(yaml, config);
   auto start = yaml.section("start");
   start.number("window", config.start.window, {0, 3600});
   start.number("position_sigma", config.start.position_sigma, {kTiny, 1e6});

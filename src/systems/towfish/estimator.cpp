@@ -57,7 +57,7 @@ const char* invalidity(const Measurement& z, const Config& config) {
 }
 
 Audit refusal(const Measurement& z, Verdict verdict, const char* reason) {
-  return sas_motion::refusal(z.stamp, sensorName(z.sensor), rowsOf(z.sensor), verdict, reason);
+  return sas_motion::refusal(z.stamp, sourceName(z), rowsOf(z.sensor), verdict, reason);
 }
 
 }  // namespace sas_motion::towfish

@@ -61,7 +61,7 @@ void FilterEstimator<Filter>::fuse(const Measurement& z, Output& output) {
   if (z.sensor == Sensor::TurnRate) return input_.take(z);
   setup_->model.linearize(z, gaussian(now_->belief).mean, [&](const auto& linear) {
     auto update = setup_->filter.update(now_->belief, linear);
-    output.audits.push_back(auditOf(z.stamp, sensorName(z.sensor), update));
+    output.audits.push_back(auditOf(z.stamp, sourceName(z), update));
     now_->belief = std::move(update.belief);
   });
 }

@@ -62,7 +62,7 @@ LinearMeasurement<kStates, M> linearized(const Measurement& z) {
   result.H.setZero();
   result.R = z.variance.head<M>().asDiagonal();
   result.time = 1e-9 * static_cast<double>(z.stamp);
-  result.source = static_cast<int>(z.sensor);
+  result.source = sourceOf(z);
   return result;
 }
 
@@ -84,6 +84,12 @@ const char* sensorName(Sensor sensor) {
     case Sensor::Velocity: return "velocity";
   }
   return "unknown";
+}
+
+std::optional<Sensor> sensorFromName(const std::string& name) {
+  for (int i = 0; i < kSensors; ++i)
+    if (const auto sensor = static_cast<Sensor>(i); name == sensorName(sensor)) return sensor;
+  return std::nullopt;
 }
 
 const char* implausibility(const Measurement& z) {

@@ -61,7 +61,7 @@ std::unique_ptr<Estimator> makeBayesReference(const Config& config, const Scenar
   for (const auto sensor : noisySensors())
     if (scenario.sensor(sensor).noise.name() == law.name())
       for (int row = 0; row < rowsOf(sensor); ++row)
-        options.mode.rows |= 1U << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));
+        options.mode.rows |= std::uint64_t{1} << (4 * static_cast<unsigned>(sensor) + static_cast<unsigned>(row));
   using Filter = GaussianSumFilter<kStates>;
   return std::make_unique<FilterEstimator<Filter>>([options](const Config&) { return Filter(options); }, config);
 }

@@ -18,8 +18,8 @@ void requireMultiple(const YamlSection& yaml, const std::string& key, double sec
     yaml.fail(key, fmt::format("gives {} s, which is no multiple of step, {} s", seconds, step));
 }
 
-void readSensor(YamlSection yaml, Sensor sensor, double step, SimulatedSensor& options) {
-  const bool angular = sensor == Sensor::Heading || sensor == Sensor::TurnRate;
+void readSensor(YamlSection yaml, double step, SimulatedSource& options) {
+  const bool angular = options.sensor == Sensor::Heading || options.sensor == Sensor::TurnRate;
   yaml.number("rate", options.rate, {0, 1e4});
   yaml.number("phase", options.phase, {0, 3600});
   if (angular)
@@ -29,7 +29,49 @@ void readSensor(YamlSection yaml, Sensor sensor, double step, SimulatedSensor& o
   options.noise = NoiseMix::read(yaml, "noise");
   if (options.rate > 0) requireMultiple(yaml, "rate", 1 / options.rate, step);
   requireMultiple(yaml, "phase", options.phase, step);
+  yaml.number("time_offset", options.time_offset, {-3600, 3600});
+  if (options.sensor == Sensor::Position) readVector<2>(yaml, "lever_arm_body", options.lever_arm_body);
   yaml.finish();
+}
+
+double defaultSigma(Sensor sensor) {
+  return sensor == Sensor::Heading ? 0.5 * kRadPerDeg : sensor == Sensor::TurnRate ? 0.1 * kRadPerDeg : 1;
+}
+
+/// The last part of the default topic of a sensor's messages.
+const char* topicOf(Sensor sensor) {
+  switch (sensor) {
+    case Sensor::Position: return "fix";
+    case Sensor::Speed: return "twist";
+    case Sensor::Velocity: return "velocity";
+    default: return "imu";
+  }
+}
+
+/// Further sources, each with a name of its own.
+void readSources(YamlSection& yaml, Scenario& scenario) {
+  for (auto& item : yaml.list("sources")) {
+    SimulatedSource source;
+    std::string measures;
+    item.text("name", source.name);
+    item.text("measures", measures);
+    const auto sensor = sensorFromName(measures);
+    if (!sensor)
+      item.fail("measures",
+                fmt::format("is '{}' but must be position, heading, speed, turn_rate or velocity", measures));
+    source.sensor = *sensor;
+    source.sigma = defaultSigma(*sensor);
+    source.topic = fmt::format("{}/{}", source.name, topicOf(*sensor));
+    item.text("topic", source.topic);
+    for (const auto& other : scenario.sources)
+      if (source.name.empty() || source.name == other.name ||
+          (other.name.empty() && source.name == sensorName(other.sensor)))
+        item.fail("name", fmt::format("is '{}' but each source needs a name of its own", source.name));
+    readSensor(item, scenario.step, source);
+    if (static_cast<int>(scenario.sources.size()) == kMaxSources)
+      yaml.fail("sources", fmt::format("has more than {} sources beside the default ones", kMaxSources - kSensors));
+    scenario.sources.push_back(source);
+  }
 }
 
 void readTruth(YamlSection yaml, Scenario& scenario) {
@@ -58,6 +100,10 @@ void readTruth(YamlSection yaml, Scenario& scenario) {
 
 }  // namespace
 
+Scenario::Scenario() {
+  for (int i = 0; i < kSensors; ++i) sources.emplace_back().sensor = static_cast<Sensor>(i);
+}
+
 Scenario Scenario::read(YamlSection yaml) {
   Scenario scenario;
   scenario.name = yaml.file();
@@ -66,15 +112,14 @@ Scenario Scenario::read(YamlSection yaml) {
   yaml.number("step", scenario.step, {1e-4, 10});
   readGeodetic(yaml, "datum", scenario.datum);
   readTruth(yaml.section("truth"), scenario);
-  scenario.sensor(Sensor::Heading).sigma = 0.5 * kRadPerDeg;
-  scenario.sensor(Sensor::TurnRate).sigma = 0.1 * kRadPerDeg;
   auto sensors = yaml.section("sensors");
-  for (int i = 0; i < kSensors; ++i) {
-    const auto sensor = static_cast<Sensor>(i);
-    readSensor(sensors.section(sensorName(sensor)), sensor, scenario.step, scenario.sensor(sensor));
+  for (auto& sensor : scenario.sources) {
+    sensor.sigma = defaultSigma(sensor.sensor);
+    readSensor(sensors.section(sensorName(sensor.sensor)), scenario.step, sensor);
   }
   sensors.finish();
-  readVector<2>(yaml, "gnss_lever_arm_body", scenario.gnss_lever_arm_body);
+  readVector<2>(yaml, "gnss_lever_arm_body", scenario.source(Sensor::Position).lever_arm_body);
+  readSources(yaml, scenario);
   yaml.finish();
   return scenario;
 }

@@ -3,7 +3,10 @@
 #include "sas_motion/systems/towfish/simulator.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+
+#include "sas_motion/estimate/source_name.hpp"
 
 namespace sas_motion::towfish {
 namespace {
@@ -35,9 +38,11 @@ Simulator::Simulator(const Scenario& scenario, std::uint64_t seed)
     : scenario_(scenario),
       model_(scenario.motion),
       process_(scenario.process, kStates, seed, kProcessStream),
+      last_value_(scenario.sources.size(), Vector<2>::Zero()),
+      measured_(scenario.sources.size()),
       current_noise_(seed, kCurrentStream) {
-  for (std::uint64_t i = 0; i < 2 * scenario.sensors.size(); ++i)
-    sensor_.emplace_back(scenario.sensors[i / 2].noise, seed, kSensorStream + i, kSpellStream + 10 * (i / 2));
+  for (std::uint64_t i = 0; i < 2 * scenario.sources.size(); ++i)
+    sensor_.emplace_back(scenario.sources[i / 2].noise, seed, kSensorStream + i, kSpellStream + 10 * (i / 2));
   Random waves(seed, kWaveStream);
   for (auto& phase : phases_) phase = 2 * kPi * waves.uniform();
   current_ = scenario.current;
@@ -127,9 +132,8 @@ void Simulator::moveSurvey() {
 
 void Simulator::measure() {
   measurements_.clear();
-  for (int i = 0; i < kSensors; ++i) {
-    const auto sensor = static_cast<Sensor>(i);
-    const SimulatedSensor& options = scenario_.sensor(sensor);
+  for (std::size_t i = 0; i < scenario_.sources.size(); ++i) {
+    const SimulatedSource& options = scenario_.sources[i];
     if (options.rate <= 0) continue;
     const long every = std::lround(1 / (options.rate * scenario_.step)),
                offset = std::lround(options.phase / scenario_.step);
@@ -137,33 +141,37 @@ void Simulator::measure() {
     LabelledMeasurement labelled;
     Measurement& z = labelled.z;
     z.stamp = truth_.stamp;
-    z.sensor = sensor;
+    z.sensor = options.sensor;
+    z.source = static_cast<int>(i);
+    if (!options.name.empty()) z.source_name = lastingName(options.name);
     z.variance.setConstant(options.sigma * options.sigma);
-    if (sensor == Sensor::Position) z.lever_arm_body = scenario_.gnss_lever_arm_body;
-    z.value = sensor == Sensor::TurnRate ? Vector<2>(truth_.turn_rate, 0) : Model::expected(z, truth_.state);
+    z.lever_arm_body = options.lever_arm_body;
+    z.value = z.sensor == Sensor::TurnRate ? Vector<2>(truth_.turn_rate, 0) : Model::expected(z, truth_.state);
     if (draw(options, labelled)) measurements_.push_back(labelled);
   }
+  std::stable_sort(measurements_.begin(), measurements_.end(),
+                   [](const auto& a, const auto& b) { return before(a.z, b.z); });
 }
 
-bool Simulator::draw(const SimulatedSensor& options, LabelledMeasurement& labelled) {
+bool Simulator::draw(const SimulatedSource& options, LabelledMeasurement& labelled) {
   Measurement& z = labelled.z;
-  const auto sensor = static_cast<std::size_t>(z.sensor);
+  const auto source = static_cast<std::size_t>(z.source);
   bool missing = false;
   for (std::size_t row = 0; row < static_cast<std::size_t>(std::max(1, rowsOf(z.sensor))); ++row) {
-    const NoiseSample noise = sensor_[2 * sensor + row].draw(time());
+    const NoiseSample noise = sensor_[2 * source + row].draw(time());
     double& value = z.value(static_cast<Eigen::Index>(row));
     value += options.sigma * noise.value;
     const double quantum = options.sigma * noise.quantum;
     if (quantum > 0) value = quantum * std::round(value / quantum);
-    if (noise.frozen && measured_[sensor]) value = last_value_[sensor](static_cast<Eigen::Index>(row));
+    if (noise.frozen && measured_[source]) value = last_value_[source](static_cast<Eigen::Index>(row));
     labelled.outlier[row] = noise.outlier;
     labelled.variance[row] = noise.variance;
     missing |= row == 0 && noise.missing;  // a measurement is lost as a whole
   }
   if (z.sensor == Sensor::Heading) z.value(0) = wrapAngle(z.value(0));
   if (missing) return false;
-  last_value_[sensor] = z.value;
-  measured_[sensor] = true;
+  last_value_[source] = z.value;
+  measured_[source] = true;
   return true;
 }
 

@@ -88,7 +88,7 @@ TEST(Rts, ASurveyWithItsTurnsHasTheDenseAnswerToo) {
   scenario.line_length = 8;
   scenario.turn_rate = 25 * kRadPerDeg;
   scenario.heading = 3.1;
-  scenario.gnss_lever_arm_body << 5, -2;
+  scenario.source(Sensor::Position).lever_arm_body << 5, -2;
   const auto problem = problemOf(scenario, 2);
   const Loss l2(LossKind::L2);
   const auto result = smoothRts(problem, {l2, 500, 1e-15});

@@ -46,13 +46,13 @@ TEST(Simulator, SensorsKeepTheirRatesAndPhases) {
     ++counts[static_cast<std::size_t>(z.sensor)];
   }
   for (int i = 0; i < kSensors; ++i)
-    EXPECT_EQ(counts[static_cast<std::size_t>(i)], 60 * scenario.sensors[static_cast<std::size_t>(i)].rate);
+    EXPECT_EQ(counts[static_cast<std::size_t>(i)], 60 * scenario.sources[static_cast<std::size_t>(i)].rate);
 }
 
 TEST(Simulator, MeasurementsScatterAboutTheTruthByTheirSigmaAndLabelsAreRight) {
   auto scenario = testing::survey(600);
-  scenario.gnss_lever_arm_body << 6, -1.5;
-  for (auto& sensor : scenario.sensors) sensor.noise = testing::contaminated(0.2, 20);
+  scenario.source(Sensor::Position).lever_arm_body << 6, -1.5;
+  for (auto& sensor : scenario.sources) sensor.noise = testing::contaminated(0.2, 20);
   const auto run = simulate(scenario, 5);
   std::cout << "seed 5\n";
   std::array<std::vector<double>, kSensors> good, bad;

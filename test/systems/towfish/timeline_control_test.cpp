@@ -76,7 +76,7 @@ TEST(Control, AStampThatIsSettledOrFarAwayIsRefused) {
 
 TEST(Control, OtherSettingsCountFromTheNextMeasurementOnAndNotInAReplay) {
   auto scenario = testing::survey(40);
-  for (auto& sensor : scenario.sensors) sensor.noise = testing::contaminated(0.2, 20);
+  for (auto& sensor : scenario.sources) sensor.noise = testing::contaminated(0.2, 20);
   Config config = testing::configFor(scenario), changed = config;
   changed.filters.robust_kf.loss = Loss(LossKind::L2);
   const auto measurements = testing::simulate(scenario, 24).measurements;

@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(EveryFilter, Order, ::testing::ValuesIn(testing::filter
 
 TEST_P(Order, LateAndRepeatedMeasurementsChangeNothing) {
   auto scenario = testing::survey(40);
-  for (auto& sensor : scenario.sensors) sensor.noise = testing::contaminated(0.2, 20);
+  for (auto& sensor : scenario.sources) sensor.noise = testing::contaminated(0.2, 20);
   const Config config = testing::configFor(scenario);
   Random random = testing::announced(201);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "sas_motion/config/yaml_section.hpp"
+#include "sas_motion/config/source_options.hpp"
 #include "sas_motion/estimate/smoother_options.hpp"
 #include "sas_motion/filters/filter_by_name.hpp"
 #include "sas_motion/systems/towfish/model.hpp"
@@ -14,19 +14,12 @@
 
 namespace sas_motion::towfish {
 
-/// How a sensor's messages are taken.
-struct SensorOptions {
-  double sigma = 1;               ///< standard deviation where the message has none [m, rad, m/s, rad/s]
-  double floor = 0;               ///< the smallest standard deviation taken from a message [same unit]
-  bool override_message = false;  ///< use sigma whatever the message states
-  double time_offset = 0;         ///< added to the message's stamp [s]
-  bool enabled = true;
-};
-
 /// Everything that decides an estimate beside the measurements.
 struct Config {
   MotionParameters model;
   std::array<SensorOptions, kSensors> sensors{};  ///< by Sensor
+  std::vector<SourceOptions>
+      sources;  ///< any number of a sensor; none: one of each, from the sections topics and sensors
   StartOptions start;
   double lag = 5;                            ///< late measurements are fused at their own time up to this age [s]
   double max_gap = 10;                       ///< a stamp further ahead of all others is not accepted alone [s]

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "sas_motion/filters/linearized.hpp"
 #include "sas_motion/math/angles.hpp"
@@ -29,6 +31,8 @@ constexpr int rowsOf(Sensor sensor) {
   return sensor == Sensor::Position || sensor == Sensor::Velocity ? 2 : sensor == Sensor::TurnRate ? 0 : 1;
 }
 const char* sensorName(Sensor sensor);
+/// The sensor of this name, or nothing.
+std::optional<Sensor> sensorFromName(const std::string& name);
 
 /// One measurement. Position: north and east of the antenna [m]; heading [rad]; speed [m/s]; turn rate [rad/s]
 /// clockwise.
@@ -38,15 +42,23 @@ struct Measurement {
   Vector<2> value = Vector<2>::Zero();
   Vector<2> variance = Vector<2>::Ones();  ///< of the good noise, a row each
   Vector<2> lever_arm_body =
-      Vector<2>::Zero();  ///< position only: antenna from the reference point, forward and starboard [m]
+      Vector<2>::Zero();              ///< position only: antenna from the reference point, forward and starboard [m]
+  int source = -1;                    ///< its instrument, below kMaxSources; below 0: the only one of its sensor
+  const char* source_name = nullptr;  ///< of that source, for as long as the program runs
 };
+
+/// The number of a measurement's source.
+inline int sourceOf(const Measurement& z) { return z.source < 0 ? static_cast<int>(z.sensor) : z.source; }
+/// The name of a measurement's source, in audits.
+inline const char* sourceName(const Measurement& z) { return z.source_name ? z.source_name : sensorName(z.sensor); }
 
 /// Why no such sensor reads a value like this one, as a literal; null where one may.
 const char* implausibility(const Measurement& z);
 
-/// The order of fusion: by time, then by sensor.
+/// The order of fusion: by time, then by sensor, then by source.
 inline bool before(const Measurement& a, const Measurement& b) {
-  return a.stamp != b.stamp ? a.stamp < b.stamp : a.sensor < b.sensor;
+  if (a.stamp != b.stamp) return a.stamp < b.stamp;
+  return a.sensor != b.sensor ? a.sensor < b.sensor : sourceOf(a) < sourceOf(b);
 }
 
 /// What is known of the motion between two measurements.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -12,12 +11,21 @@
 
 namespace sas_motion::towfish {
 
-/// A simulated sensor. Rate 0 means that there is none.
+/// When a simulated sensor measures, and with what noise. Rate 0 means that there is none.
 struct SimulatedSensor {
   double rate = 0;   ///< [1/s]
   double phase = 0;  ///< of its first measurement after the start [s]
   double sigma = 1;  ///< standard deviation of the good noise [m, rad, m/s, rad/s]
   NoiseMix noise;
+};
+
+/// A simulated instrument.
+struct SimulatedSource : SimulatedSensor {
+  Sensor sensor = Sensor::Position;
+  std::string name;                              ///< of the source; empty: the sensor's
+  std::string topic;                             ///< in a bag; empty: the sensor's
+  Vector<2> lever_arm_body = Vector<2>::Zero();  ///< of a position's antenna from base_link: forward, starboard [m]
+  double time_offset = 0;                        ///< added to its stamps in a bag [s]
 };
 
 /// A change of the current while the vessel crosses a front.
@@ -50,11 +58,13 @@ struct Scenario {
   double yaw_period = 9;              ///< survey: of the waves [s]
   double surge_sigma = 0.05;          ///< survey: of the speed [m/s]
 
-  std::array<SimulatedSensor, kSensors> sensors{};    ///< by Sensor
-  Vector<2> gnss_lever_arm_body = Vector<2>::Zero();  ///< antenna from base_link: forward, starboard [m]
+  std::vector<SimulatedSource> sources;  ///< the default one of each Sensor, then others
 
-  SimulatedSensor& sensor(Sensor which) { return sensors[static_cast<std::size_t>(which)]; }
-  const SimulatedSensor& sensor(Sensor which) const { return sensors[static_cast<std::size_t>(which)]; }
+  Scenario();
+  /// The default source of a sensor.
+  SimulatedSource& source(Sensor which) { return sources[static_cast<std::size_t>(which)]; }
+  SimulatedSensor& sensor(Sensor which) { return source(which); }
+  const SimulatedSensor& sensor(Sensor which) const { return sources[static_cast<std::size_t>(which)]; }
 
   /// Throws ConfigError.
   static Scenario read(YamlSection yaml);

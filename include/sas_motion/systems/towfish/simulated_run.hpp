@@ -36,7 +36,7 @@ class SimulatedRun {
   /// Whether any row of the measurement that an audit is of was an outlier.
   bool outlier(const Audit& audit) const {
     auto found = measurements_.begin() + static_cast<std::ptrdiff_t>(first_[index(audit.stamp)]);
-    while (sensorName(found->z.sensor) != audit.sensor) ++found;
+    while (sourceName(found->z) != audit.sensor) ++found;
     return found->outlier[0] || found->outlier[1];
   }
 

@@ -52,16 +52,16 @@ class Simulator {
   /// Everything but the position, on the waves and in the front, at this step.
   void takeSurveyState(double course_rate);
   void measure();
-  bool draw(const SimulatedSensor& sensor, LabelledMeasurement& labelled);
+  bool draw(const SimulatedSource& source, LabelledMeasurement& labelled);
 
   Scenario scenario_;
   Model model_;
   long step_ = -1;
   TruthSample truth_;
   ProcessNoise process_;
-  std::vector<NoiseSource> sensor_;               // two rows a sensor
-  std::array<Vector<2>, kSensors> last_value_{};  // of each sensor, for one that freezes
-  std::array<bool, kSensors> measured_{};         // whether there is one
+  std::vector<NoiseSource> sensor_;    // two rows a source
+  std::vector<Vector<2>> last_value_;  // of each source, for one that freezes
+  std::vector<bool> measured_;         // whether there is one
   Random current_noise_;
   std::array<double, 3> phases_{};  // of the waves
   Vector<2> current_ = Vector<2>::Zero();

@@ -6,7 +6,9 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "ros/solution_messages.hpp"
@@ -24,9 +26,26 @@ constexpr double kTruthPeriod = 0.1;  // between messages of the truth [s]
 sas_motion::MeasurementLabel label(const Measurement& z, const std::array<bool, 2>& outlier) {
   sas_motion::MeasurementLabel message;
   message.header.stamp = timeOf(z.stamp);
-  message.sensor = sensorName(z.sensor);
+  message.sensor = sourceName(z);
   message.outlier.assign(outlier.begin(), outlier.begin() + rowsOf(z.sensor));
   return message;
+}
+
+struct Defaults {
+  const char *topic, *frame;
+};
+constexpr std::array<Defaults, kSensors> kDefaults{{{"gnss/fix", "gnss_link"},
+                                                    {"imu/data", "imu_link"},
+                                                    {"dvl/twist", "dvl_link"},
+                                                    {"imu/data", "imu_link"},
+                                                    {"dvl/velocity", "dvl_link"}}};  // by Sensor
+
+std::string topicOf(const SimulatedSource& source) {
+  return source.topic.empty() ? kDefaults[static_cast<std::size_t>(source.sensor)].topic : source.topic;
+}
+
+std::string frameOf(const SimulatedSource& source) {
+  return source.name.empty() ? kDefaults[static_cast<std::size_t>(source.sensor)].frame : source.name + "_link";
 }
 
 }  // namespace
@@ -43,12 +62,14 @@ void TowfishRecorder::record(const std::function<void(double)>& progress) {
 
 void TowfishRecorder::transforms() {
   const ros::Time time = timeOf(Simulator::kStart);
-  Transform T_base_gnss = Transform::Identity();
-  T_base_gnss.translation() << scenario_.gnss_lever_arm_body(0), -scenario_.gnss_lever_arm_body(1), 0;
   tf2_msgs::TFMessage message;
-  message.transforms = {stamped(settings_.base_frame, "gnss_link", time, T_base_gnss),
-                        stamped(settings_.base_frame, "imu_link", time, Transform::Identity()),
-                        stamped(settings_.base_frame, "dvl_link", time, Transform::Identity())};
+  std::set<std::string> frames;
+  for (const auto& source : scenario_.sources) {
+    if (!frames.insert(frameOf(source)).second) continue;
+    Transform T_base_sensor = Transform::Identity();
+    T_base_sensor.translation() << source.lever_arm_body(0), 0 - source.lever_arm_body(1), 0;
+    message.transforms.push_back(stamped(settings_.base_frame, frameOf(source), time, T_base_sensor));
+  }
   bag_.writeLatched("/tf_static", time, message);
 }
 
@@ -61,38 +82,41 @@ void TowfishRecorder::truth(const TruthSample& truth) {
 }
 
 void TowfishRecorder::measurements(const std::vector<LabelledMeasurement>& measurements) {
-  sensor_msgs::Imu imu;
-  imu.orientation_covariance[0] = imu.angular_velocity_covariance[0] = imu.linear_acceleration_covariance[0] = -1;
-  bool has_imu = false;
+  std::map<std::string, sensor_msgs::Imu> imus;  // by topic: a heading and a turn rate of one IMU share a message
   for (const auto& [z, outlier, variance] : measurements) {
+    const SimulatedSource& source = scenario_.sources[static_cast<std::size_t>(z.source)];
+    const std::string topic = topicOf(source);
     const ros::Time time = timeOf(z.stamp);
-    if (z.sensor == Sensor::Position) bag_.write("gnss/fix", time, fix(z));
-    if (z.sensor == Sensor::Speed) bag_.write("dvl/twist", time, twist(z));
-    if (z.sensor == Sensor::Velocity) bag_.write("dvl/velocity", time, twist(z));
-    if (z.sensor == Sensor::Heading || z.sensor == Sensor::TurnRate) {
-      fill(imu, z);
-      has_imu = true;
-    }
+    if (z.sensor == Sensor::Position) bag_.write(topic, time, fix(z, source));
+    if (z.sensor == Sensor::Speed || z.sensor == Sensor::Velocity) bag_.write(topic, time, twist(z, source));
+    if (z.sensor == Sensor::Heading || z.sensor == Sensor::TurnRate) fill(imus[topic], z, source);
     if (z.sensor != Sensor::TurnRate) bag_.write("truth/label", time, label(z, outlier));
   }
-  if (has_imu) {
-    imu.header.seq = imu_seq_++;
-    bag_.write("imu/data", imu.header.stamp, imu);
+  for (auto& [topic, imu] : imus) {
+    imu.header.seq = seq_[topic]++;
+    bag_.write(topic, timeOf(measurements.front().z.stamp), imu);
   }
 }
 
-sensor_msgs::NavSatFix TowfishRecorder::fix(const Measurement& z) {
-  sensor_msgs::NavSatFix message = fixAt(frame_.geodetic({z.value(1), z.value(0), 0}), timeOf(z.stamp), "gnss_link",
-                                         {z.variance(1), z.variance(0), 4 * z.variance(0)});
-  message.header.seq = fix_seq_++;
+std_msgs::Header TowfishRecorder::header(const Measurement& z, const SimulatedSource& source) const {
+  std_msgs::Header header;
+  header.stamp = timeOf(z.stamp + stampFromSeconds(source.time_offset));
+  header.frame_id = frameOf(source);
+  return header;
+}
+
+sensor_msgs::NavSatFix TowfishRecorder::fix(const Measurement& z, const SimulatedSource& source) {
+  sensor_msgs::NavSatFix message =
+      fixAt(frame_.geodetic({z.value(1), z.value(0), 0}), {}, "", {z.variance(1), z.variance(0), 4 * z.variance(0)});
+  message.header = header(z, source);
+  message.header.seq = seq_[topicOf(source)]++;
   return message;
 }
 
-geometry_msgs::TwistWithCovarianceStamped TowfishRecorder::twist(const Measurement& z) {
+geometry_msgs::TwistWithCovarianceStamped TowfishRecorder::twist(const Measurement& z, const SimulatedSource& source) {
   geometry_msgs::TwistWithCovarianceStamped message;
-  message.header.seq = twist_seq_++;
-  message.header.stamp = timeOf(z.stamp);
-  message.header.frame_id = "dvl_link";
+  message.header = header(z, source);
+  message.header.seq = seq_[topicOf(source)]++;
   const std::size_t rows = static_cast<std::size_t>(rowsOf(z.sensor));
   message.twist.twist.linear.x = z.value(0);
   message.twist.twist.linear.y = rows > 1 ? -z.value(1) : 0;
@@ -100,9 +124,10 @@ geometry_msgs::TwistWithCovarianceStamped TowfishRecorder::twist(const Measureme
   return message;
 }
 
-void TowfishRecorder::fill(sensor_msgs::Imu& imu, const Measurement& z) const {
-  imu.header.stamp = timeOf(z.stamp);
-  imu.header.frame_id = "imu_link";
+void TowfishRecorder::fill(sensor_msgs::Imu& imu, const Measurement& z, const SimulatedSource& source) const {
+  if (imu.header.frame_id.empty())  // what it does not measure
+    imu.orientation_covariance[0] = imu.angular_velocity_covariance[0] = imu.linear_acceleration_covariance[0] = -1;
+  imu.header = header(z, source);
   if (z.sensor == Sensor::Heading) {
     Estimate at{z.stamp, {}};
     at.belief.mean(kHeading) = z.value(0);

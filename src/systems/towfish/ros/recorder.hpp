@@ -8,6 +8,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "bag/bag_output.hpp"
@@ -29,16 +31,18 @@ class TowfishRecorder {
   void transforms();
   void truth(const towfish::TruthSample& truth);
   void measurements(const std::vector<towfish::LabelledMeasurement>& measurements);
-  sensor_msgs::NavSatFix fix(const towfish::Measurement& z);
-  geometry_msgs::TwistWithCovarianceStamped twist(const towfish::Measurement& z);
-  void fill(sensor_msgs::Imu& imu, const towfish::Measurement& z) const;
+  std_msgs::Header header(const towfish::Measurement& z, const towfish::SimulatedSource& source) const;
+  sensor_msgs::NavSatFix fix(const towfish::Measurement& z, const towfish::SimulatedSource& source);
+  geometry_msgs::TwistWithCovarianceStamped twist(const towfish::Measurement& z,
+                                                  const towfish::SimulatedSource& source);
+  void fill(sensor_msgs::Imu& imu, const towfish::Measurement& z, const towfish::SimulatedSource& source) const;
 
   towfish::Scenario scenario_;
   towfish::Simulator simulator_;
   ros_side::BagOutput& bag_;
   LocalFrame frame_;
   ros_side::MapSettings settings_;
-  std::uint32_t fix_seq_ = 0, imu_seq_ = 0, twist_seq_ = 0;
+  std::map<std::string, std::uint32_t> seq_;  // by topic
 };
 
 }  // namespace sas_motion

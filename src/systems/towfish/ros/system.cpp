@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/towfish/ros/system.hpp"
 
+#include <fmt/format.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sas_motion/config/yaml_vector.hpp"
+#include "sas_motion/estimate/source_name.hpp"
 #include "sas_motion/systems/towfish/session.hpp"
 #include "systems/towfish/graph/estimators.hpp"
 
@@ -15,19 +18,20 @@ namespace {
 
 using namespace towfish;  // the names of the states
 using Twist = geometry_msgs::TwistWithCovarianceStamped;
-using Measurements = std::vector<Measurement>;
+using sensor_msgs::Imu;
+using sensor_msgs::NavSatFix;
 
-enum Source { kFix, kImu, kTwist, kVelocity };
+/// What of a source's messages is read.
+struct Reader {
+  Sensor sensor;
+  SensorOptions options;
+  int number = -1;             // of the source, see Measurement
+  const char* name = nullptr;  // the same
+};
+using Readers = std::vector<Reader>;  // of one source
 
 double usedFrom(double variance, const SensorOptions& options) {
   return usedVariance(variance, options.sigma, options.floor, options.override_message);
-}
-
-Measurement begin(const ros::Time& stamp, Sensor sensor, const Config& config) {
-  Measurement z;
-  z.stamp = stampOf(stamp) + stampFromSeconds(config.sensor(sensor).time_offset);
-  z.sensor = sensor;
-  return z;
 }
 
 /// Clockwise from north, of a body whose x axis points forward.
@@ -36,54 +40,43 @@ double headingOf(const Eigen::Quaterniond& q_map_base) {
   return std::atan2(forward.x(), forward.y());
 }
 
-// Each message gives up to two measurements. What is absent in a message (no fix, no orientation, covariance[0] = -1)
-// is left out; what is wrong in it comes through and is refused by the estimators, which count it.
+// Each function fills value, variance and lever arm of a measurement, and returns whether there is one. What is absent
+// in a message (no fix, no orientation, covariance[0] = -1) is left out; what is wrong in it comes through and is
+// refused by the estimators, which count it.
 
-std::vector<Measurement> measurementsOf(const sensor_msgs::NavSatFix& fix, const LocalFrame& frame,
-                                        const Transform& T_base_gnss, const Config& config) {
-  const SensorOptions& options = config.sensor(Sensor::Position);
-  if (!options.enabled || fix.status.status < 0) return {};
-  Measurement z = begin(fix.header.stamp, Sensor::Position, config);
+bool readPosition(const NavSatFix& fix, const LocalFrame& frame, const Transform& T_base_gnss,
+                  const SensorOptions& options, Measurement& z) {
+  if (fix.status.status < 0) return false;
   z.value.setConstant(NAN);
   if (hasPosition(fix)) {
     const Vector<3> enu = frame.position_enu(geodeticOf(fix));
     z.value << enu(1), enu(0);
   }
-  const bool known = fix.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
+  const bool known = fix.position_covariance_type != NavSatFix::COVARIANCE_TYPE_UNKNOWN;
   z.variance << usedFrom(known ? fix.position_covariance[4] : -1, options),
       usedFrom(known ? fix.position_covariance[0] : -1, options);
   z.lever_arm_body << T_base_gnss.translation().x(), -T_base_gnss.translation().y();
-  return {z};
+  return true;
 }
 
-std::vector<Measurement> measurementsOf(const sensor_msgs::Imu& imu, const Transform& T_base_imu,
-                                        const Config& config) {
-  std::vector<Measurement> measurements;
-  const SensorOptions &heading = config.sensor(Sensor::Heading), &rate = config.sensor(Sensor::TurnRate);
-  if (heading.enabled && imu.orientation_covariance[0] != -1) {
-    Measurement z = begin(imu.header.stamp, Sensor::Heading, config);
-    const Eigen::Quaterniond q = quaternionOf(imu.orientation);
-    const bool unit = std::abs(q.squaredNorm() - 1) < 0.1;
-    z.value(0) = unit ? headingOf(q.normalized() * Eigen::Quaterniond(T_base_imu.linear()).conjugate()) : NAN;
-    z.value(1) = 0;
-    z.variance.setConstant(usedFrom(imu.orientation_covariance[8], heading));
-    measurements.push_back(z);
-  }
-  if (rate.enabled && imu.angular_velocity_covariance[0] != -1) {
-    Measurement z = begin(imu.header.stamp, Sensor::TurnRate, config);
-    const auto& w = imu.angular_velocity;
-    z.value << -(T_base_imu.linear() * Eigen::Vector3d(w.x, w.y, w.z)).z(), 0;
-    z.variance.setConstant(usedFrom(imu.angular_velocity_covariance[8], rate));
-    measurements.push_back(z);
-  }
-  return measurements;
+bool readHeading(const Imu& imu, const Transform& T_base_imu, const SensorOptions& options, Measurement& z) {
+  if (imu.orientation_covariance[0] == -1) return false;
+  const Eigen::Quaterniond q = quaternionOf(imu.orientation);
+  const bool unit = std::abs(q.squaredNorm() - 1) < 0.1;
+  z.value << (unit ? headingOf(q.normalized() * Eigen::Quaterniond(T_base_imu.linear()).conjugate()) : NAN), 0;
+  if (options.offset != 0) z.value(0) = wrapAngle(z.value(0) + options.offset);
+  z.variance.setConstant(usedFrom(imu.orientation_covariance[8], options));
+  return true;
 }
 
-std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovarianceStamped& twist,
-                                        const Transform& T_base_dvl, const Config& config) {
-  const SensorOptions& options = config.sensor(Sensor::Speed);
-  if (!options.enabled) return {};
-  Measurement z = begin(twist.header.stamp, Sensor::Speed, config);
+bool readTurnRate(const Imu& imu, const Transform& T_base_imu, const SensorOptions& options, Measurement& z) {
+  if (imu.angular_velocity_covariance[0] == -1) return false;
+  z.value << -(T_base_imu.linear() * vectorOf(imu.angular_velocity)).z(), 0;
+  z.variance.setConstant(usedFrom(imu.angular_velocity_covariance[8], options));
+  return true;
+}
+
+bool readSpeed(const Twist& twist, const Transform& T_base_dvl, const SensorOptions& options, Measurement& z) {
   const auto& v = twist.twist.twist.linear;
   const Eigen::Vector3d axis = T_base_dvl.linear().row(0);  // base x in the sensor's axes
   double speed = 0, variance = 0;
@@ -92,86 +85,127 @@ std::vector<Measurement> measurementsOf(const geometry_msgs::TwistWithCovariance
     speed += axis(i) * (i == 0 ? v.x : i == 1 ? v.y : v.z);
     variance += axis(i) * axis(i) * twist.twist.covariance[7 * static_cast<std::size_t>(i)];
   }
-  z.value << speed, 0;
+  z.value << options.scale * speed, 0;
   z.variance.setConstant(usedFrom(variance, options));
-  return {z};
+  return true;
 }
 
 /// Over ground, of a DVL with bottom lock. Its lever arm is not applied: a towed body turns slowly.
-Measurements velocityOf(const Twist& twist, const Transform& T_base_dvl, const Config& config) {
-  const SensorOptions& options = config.sensor(Sensor::Velocity);
-  if (!options.enabled) return {};
-  Measurement z = begin(twist.header.stamp, Sensor::Velocity, config);
-  const Vector<3> velocity = T_base_dvl.linear() * vectorOf(twist.twist.twist.linear);
+bool readVelocity(const Twist& twist, const Transform& T_base_dvl, const SensorOptions& options, Measurement& z) {
+  const Vector<3> velocity = options.scale * (T_base_dvl.linear() * vectorOf(twist.twist.twist.linear));
   const auto& P = twist.twist.covariance;
   const Vector<3> variance = T_base_dvl.linear().cwiseAbs2() * Vector<3>(P[0], P[7], P[14]);
   z.value << velocity.x(), -velocity.y();
   z.variance << usedFrom(variance.x(), options), usedFrom(variance.y(), options);
-  return {z};
+  return true;
 }
 
 /// Messages become measurements of the towfish.
 class TowfishRun final : public SystemRun {
  public:
-  TowfishRun(const System& system, const Config& config, const std::vector<std::string>& names,
-             const tf2::BufferCore& transforms, bool live)
+  TowfishRun(const System& system, const Config& config, const std::vector<Readers>& readers,
+             const std::vector<std::string>& names, const tf2::BufferCore& transforms, bool live)
       : SystemRun(system.map, system.sources, transforms),
-        config_(config),
+        readers_(readers),
         session_(config, names, makeAnyEstimator, live) {
-    listenAt<sensor_msgs::NavSatFix>(kFix, [this](const auto& fix, const Transform& T_base_gnss) {
-      if (!frame_.map && hasPosition(fix)) setDatum(geodeticOf(fix));
-      return frame_.map && pass(measurementsOf(fix, *frame_.map, T_base_gnss, config_));
-    });
-    listenAt<sensor_msgs::Imu>(kImu, [this](const auto& imu, const Transform& T_base_imu) {
-      return pass(measurementsOf(imu, T_base_imu, config_));
-    });
-    listenAt<Twist>(kTwist, [this](const auto& twist, const Transform& T_base_dvl) {
-      return pass(measurementsOf(twist, T_base_dvl, config_));
-    });
-    listenAt<Twist>(kVelocity, [this](const auto& twist, const Transform& T_base_dvl) {
-      return pass(velocityOf(twist, T_base_dvl, config_));
-    });
+    for (std::size_t i = 0; i < readers_.size(); ++i) listenTo(i);
   }
 
   Session& session() override { return session_; }
   std::string waitsFor() const override {
-    const auto readings = [this](Source source) {
-      const MessageCounts& counts = inbox().counts(source);
-      return counts.messages - counts.unusable - counts.unknown_frame - counts.disabled;
-    };
-    if (!config_.sensor(Sensor::Position).enabled) return sources()[kFix].topic + " is disabled";
-    if (readings(kFix) == 0) return lackOf(kFix, "has no message with a fix");
-    if (readings(kImu) == 0) return lackOf(kImu, "has no message with an orientation or a turn rate");
+    for (const Sensor needed : {Sensor::Position, Sensor::Heading})
+      if (const std::string lack = lackOfSensor(needed); !lack.empty()) return lack;
     return "";
+  }
+  std::vector<std::string> warnings() const override {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < sources().size(); ++i)
+      if (sources()[i].must_speak && inbox().counts(i).messages == 0)
+        warnings.push_back(fmt::format("{}: no message on {} has come", sources()[i].name, sources()[i].wanted_topic));
+    return warnings;
   }
 
  private:
-  /// Returns whether there was any.
-  bool pass(const Measurements& measurements) {
-    for (const auto& z : measurements) session_.process(z);
-    return !measurements.empty();
+  void listenTo(std::size_t source) {
+    switch (readers_[source].front().sensor) {
+      case Sensor::Position:
+        return listenAt<NavSatFix>(source, [this, source](const NavSatFix& fix, const Transform& T) {
+          if (!frame_.map && hasPosition(fix)) setDatum(geodeticOf(fix));
+          return frame_.map && pass(fix, T, source, [&](const auto& reader, Measurement& z) {
+                   return readPosition(fix, *frame_.map, T, reader.options, z);
+                 });
+        });
+      case Sensor::Heading:
+      case Sensor::TurnRate:
+        return listenAt<Imu>(source, [this, source](const Imu& imu, const Transform& T) {
+          return pass(imu, T, source, [&](const auto& reader, Measurement& z) {
+            return reader.sensor == Sensor::Heading ? readHeading(imu, T, reader.options, z)
+                                                    : readTurnRate(imu, T, reader.options, z);
+          });
+        });
+      case Sensor::Speed:
+      case Sensor::Velocity:
+        return listenAt<Twist>(source, [this, source](const Twist& twist, const Transform& T) {
+          return pass(twist, T, source, [&](const auto& reader, Measurement& z) {
+            return reader.sensor == Sensor::Speed ? readSpeed(twist, T, reader.options, z)
+                                                  : readVelocity(twist, T, reader.options, z);
+          });
+        });
+    }
   }
 
-  Config config_;
+  /// Returns whether there was any measurement.
+  template <class Message, class Read>
+  bool pass(const Message& message, const Transform&, std::size_t source, const Read& read) {
+    bool any = false;
+    for (const auto& reader : readers_[source]) {
+      if (!reader.options.enabled) continue;
+      Measurement z;
+      z.stamp = stampOf(message.header.stamp) + stampFromSeconds(reader.options.time_offset);
+      z.sensor = reader.sensor;
+      z.source = reader.number;
+      z.source_name = reader.name;
+      if (!read(reader, z)) continue;
+      session_.process(z);
+      any = true;
+    }
+    return any;
+  }
+
+  /// Why no source of a sensor has a reading; empty where one has.
+  std::string lackOfSensor(Sensor sensor) const {
+    std::string lack;
+    for (std::size_t i = 0; i < readers_.size(); ++i) {
+      const auto reader =
+          std::find_if(readers_[i].begin(), readers_[i].end(), [&](const Reader& r) { return r.sensor == sensor; });
+      if (reader == readers_[i].end()) continue;
+      const MessageCounts& counts = inbox().counts(i);
+      if (counts.messages > counts.unusable + counts.unknown_frame + counts.disabled) return "";
+      if (!lack.empty()) continue;
+      lack = !reader->options.enabled     ? sources()[i].topic + " is disabled"
+             : sensor == Sensor::Position ? lackOf(i, "has no message with a fix")
+                                          : lackOf(i, "has no message with an orientation or a turn rate");
+    }
+    return lack;
+  }
+
+  std::vector<Readers> readers_;  // by source
   TowfishSession session_;
 };
 
 class TowfishSystem final : public System {
  public:
   explicit TowfishSystem(YamlSection& yaml) {
-    sources = {sourceOf<sensor_msgs::NavSatFix>("fix", "gnss/fix", "positions are needed"),
-               sourceOf<sensor_msgs::Imu>("imu", "imu/data", "headings are needed"),
-               sourceOf<Twist>("twist", "dvl/twist", "speeds help"),
-               sourceOf<Twist>("velocity", "dvl/velocity", "velocities over ground help")};
-    sources[kVelocity].need = MessageSource::Need::NamedAlone;
-    sources[kFix].need = sources[kImu].need = MessageSource::Need::Required;
     estimators = estimatorNames();
     preferred = {"kf", "robust_kf"};
     smoothers = {"fixed_lag"};
     has_current = true;
     readSystem(yaml, "towfish");
     readConfig(yaml, config_);
-    readTopics(yaml, sources);
+    if (config_.sources.empty())
+      takeDefaultSources(yaml);
+    else
+      for (const auto& source : config_.sources) takeSource(source);
     map.readMap(yaml);
     yaml.finish();
     tuning = tuningOf(config_);
@@ -181,11 +215,48 @@ class TowfishSystem final : public System {
   bool knows(const std::string& name) const override { return makeAnyEstimator(name, config_) != nullptr; }
   std::unique_ptr<SystemRun> begin(const std::vector<std::string>& names, const tf2::BufferCore& transforms,
                                    bool live) const override {
-    return std::make_unique<TowfishRun>(*this, config_, names, transforms, live);
+    return std::make_unique<TowfishRun>(*this, config_, readers_, names, transforms, live);
   }
 
  private:
+  void takeDefaultSources(YamlSection& yaml) {
+    sources = {sourceOf<NavSatFix>("fix", "gnss/fix", "positions are needed"),
+               sourceOf<Imu>("imu", "imu/data", "headings are needed"),
+               sourceOf<Twist>("twist", "dvl/twist", "speeds help"),
+               sourceOf<Twist>("velocity", "dvl/velocity", "velocities over ground help")};
+    sources[0].need = sources[1].need = MessageSource::Need::Required;
+    sources[3].need = MessageSource::Need::NamedAlone;
+    const auto of = [this](Sensor sensor) { return Reader{sensor, config_.sensor(sensor)}; };
+    readers_ = {{of(Sensor::Position)},
+                {of(Sensor::Heading), of(Sensor::TurnRate)},
+                {of(Sensor::Speed)},
+                {of(Sensor::Velocity)}};
+    readTopics(yaml, sources);
+  }
+
+  void takeSource(const SourceOptions& source) {
+    Readers readers;
+    for (const auto& kind : source.measures)
+      readers.push_back(
+          {*sensorFromName(kind), source.options, static_cast<int>(sources.size()), lastingName(source.name)});
+    const auto add = [&](auto message) {
+      sources.push_back(sourceOf<decltype(message)>(source.name, source.topic, ""));
+      sources.back().need = MessageSource::Need::NamedAlone;
+      sources.back().enabled = source.options.enabled;
+      sources.back().must_speak = source.options.enabled;
+    };
+    const Sensor first = readers.front().sensor;
+    if (first == Sensor::Position)
+      add(NavSatFix());
+    else if (first == Sensor::Speed || first == Sensor::Velocity)
+      add(Twist());
+    else
+      add(Imu());
+    readers_.push_back(std::move(readers));
+  }
+
   Config config_;
+  std::vector<Readers> readers_;  // by source
 };
 
 }  // namespace
