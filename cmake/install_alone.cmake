@@ -18,12 +18,12 @@ elseif(SAS_MOTION_GTSAM)
 endif()
 set_target_properties(sas_motion_core PROPERTIES EXPORT_NAME core)
 
-set(package ${CMAKE_INSTALL_LIBDIR}/cmake/sas_motion)
-configure_package_config_file(cmake/sas_motionConfig.cmake.in ${PROJECT_BINARY_DIR}/cmake/sas_motionConfig.cmake INSTALL_DESTINATION ${package})
+set(sas_motion_package ${CMAKE_INSTALL_LIBDIR}/cmake/sas_motion)
+configure_package_config_file(cmake/sas_motionConfig.cmake.in ${PROJECT_BINARY_DIR}/cmake/sas_motionConfig.cmake INSTALL_DESTINATION ${sas_motion_package})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/sas_motionConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
 install(TARGETS ${sas_motion_libraries} EXPORT sas_motion LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${sas_motion_component})
-install(EXPORT sas_motion FILE sas_motionTargets.cmake NAMESPACE sas_motion:: DESTINATION ${package} ${sas_motion_component})
+install(EXPORT sas_motion FILE sas_motionTargets.cmake NAMESPACE sas_motion:: DESTINATION ${sas_motion_package} ${sas_motion_component})
 install(DIRECTORY include/sas_motion DESTINATION include ${sas_motion_component})
 install(FILES ${PROJECT_BINARY_DIR}/cmake/sas_motionConfig.cmake ${PROJECT_BINARY_DIR}/cmake/sas_motionConfigVersion.cmake cmake/geographiclib.cmake
-  DESTINATION ${package} ${sas_motion_component})
+  DESTINATION ${sas_motion_package} ${sas_motion_component})
