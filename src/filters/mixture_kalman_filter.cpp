@@ -5,13 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
-#include "filters/instantiate.hpp"
 #include "sas_motion/config/yaml_vector.hpp"
-#include "sas_motion/filters/conditioning.hpp"
 
 namespace sas_motion {
 
@@ -23,8 +20,7 @@ void readOptions(YamlSection yaml, MixtureKalmanOptions& options) {
   yaml.finish();
 }
 
-template <int N>
-MixtureKalmanFilter<N>::MixtureKalmanFilter(const Options& options) : options_(options) {
+MixtureKalmanOptions checked(const MixtureKalmanOptions& options) {
   for (const double scale : options.scales)
     if (!(scale > 0)) throw std::invalid_argument(fmt::format("scales: {} must be positive", scale));
   for (const double probability : options.probabilities)
@@ -32,52 +28,10 @@ MixtureKalmanFilter<N>::MixtureKalmanFilter(const Options& options) : options_(o
       throw std::invalid_argument(fmt::format("probabilities: {} must not be negative", probability));
   if (!(std::accumulate(options.probabilities.begin(), options.probabilities.end(), 0.0) > 0))
     throw std::invalid_argument("probabilities: at least one must be positive");
+  return options;
 }
 
-template <int N>
-typename MixtureKalmanFilter<N>::Collapse MixtureKalmanFilter<N>::collapse(double innovation, double v,
-                                                                           double r) const {
-  std::array<double, kScales> exponent, S;
-  double largest = -INFINITY;
-  for (std::size_t j = 0; j < kScales; ++j) {
-    S[j] = v + options_.scales[j] * r;
-    exponent[j] = -0.5 * innovation * innovation / S[j];
-    if (options_.probabilities[j] > 0) largest = std::max(largest, exponent[j]);
-  }
-  double total = 0;
-  Collapse result{0, 0, 0};
-  for (std::size_t j = 0; j < kScales; ++j) {
-    if (options_.probabilities[j] == 0) continue;
-    const double likelihood = options_.probabilities[j] * std::exp(exponent[j] - largest) / std::sqrt(S[j]);
-    total += likelihood;
-    result.inverse += likelihood / S[j];
-    result.inverse_squared += likelihood / (S[j] * S[j]);
-    result.weight += likelihood / options_.scales[j];
-  }
-  return {result.inverse / total, result.inverse_squared / total, result.weight / total};
-}
-
-template <int N>
-template <int M>
-Update<Gaussian<N>, M> MixtureKalmanFilter<N>::update(const Belief& prior, const LinearMeasurement<N, M>& z) const {
-  auto result = examine(prior, z);
-  if (result.verdict == Verdict::Invalid) return result;
-  Gaussian<N>& belief = result.belief;
-  for (int row = 0; row < M; ++row) {
-    const Vector<N> Ph = belief.covariance * z.H.row(row).transpose();
-    const double v = z.H.row(row).dot(Ph), d = z.innovation(row) - z.H.row(row).dot(belief.mean - prior.mean);
-    const Collapse c = collapse(d, v, z.R(row, row));
-    belief.mean += Ph * (d * c.inverse);
-    const double shrink = c.inverse - d * d * (c.inverse_squared - c.inverse * c.inverse);
-    belief.covariance -= (shrink * Ph) * Ph.transpose();
-    result.weights(row) = std::min(1.0, c.weight);
-  }
-  symmetrize(belief.covariance);
-  result.verdict = verdictFromWeights(result.weights);
-  return result;
-}
-
-SAS_MOTION_INSTANTIATE_UPDATES(MixtureKalmanFilter)
-SAS_MOTION_INSTANTIATE_LARGE_UPDATES(MixtureKalmanFilter)
+SAS_MOTION_INSTANTIATE_UPDATES(, MixtureKalmanFilter)
+SAS_MOTION_INSTANTIATE_LARGE_UPDATES(, MixtureKalmanFilter)
 
 }  // namespace sas_motion

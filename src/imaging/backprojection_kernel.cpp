@@ -6,12 +6,10 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "imaging/backprojection_kernel.cpp"
-#include <hwy/foreach_target.h>  // comes before highway.h
-//
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cstddef>
+
+#include "parallel/vectors.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sas_motion::imaging {

@@ -24,6 +24,8 @@ struct BankKalmanOptions {
 };
 /// Reads all keys of a section. Throws ConfigError.
 void readOptions(YamlSection yaml, BankKalmanOptions& options);
+/// Returns the options with probabilities that add up to 1. Throws std::invalid_argument where one is out of its range.
+BankKalmanOptions checked(BankKalmanOptions options);
 
 /// One history of the last epochs, as a Gaussian about the bank's mean, with the state of each channel. A channel is
 /// one row of one sensor.
@@ -94,7 +96,7 @@ class BankKalmanFilter {
   static constexpr Guard kGuard = Guard::None;  // the bank re-acquires by itself
 
   /// Throws std::invalid_argument where an option is out of its range.
-  explicit BankKalmanFilter(const Options& options);
+  explicit BankKalmanFilter(const Options& options) : options_(checked(options)) {}
 
   Belief predict(const Belief& belief, const Transition<N>& transition) const;
 
@@ -109,3 +111,5 @@ class BankKalmanFilter {
 };
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/bank_kalman_filter.hpp"

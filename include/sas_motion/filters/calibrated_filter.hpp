@@ -68,3 +68,5 @@ class CalibratedFilter {
 };
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/calibrated_filter.hpp"

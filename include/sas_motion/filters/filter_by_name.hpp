@@ -20,12 +20,14 @@
 
 // Explicit instantiations: DO(KalmanFilter) and so on for every filter, for those that work in 27 states too, and for
 // those that a CalibratedFilter may wrap.
-#define SAS_MOTION_FOR_CALIBRATED_FILTERS(DO) DO(RobustKalmanFilter) DO(StudentTKalmanFilter)
+#define SAS_MOTION_FOR_CALIBRATED_FILTERS(KIND, DO) DO(KIND, RobustKalmanFilter) DO(KIND, StudentTKalmanFilter)
 #define SAS_MOTION_FOR_LARGE_FILTERS(DO) \
   DO(KalmanFilter) DO(GatedKalmanFilter) DO(RobustKalmanFilter) DO(MixtureKalmanFilter)
 #define SAS_MOTION_FOR_FILTERS(DO) SAS_MOTION_FOR_LARGE_FILTERS(DO) DO(StudentTKalmanFilter) DO(BankKalmanFilter)
 
 namespace sas_motion {
+
+SAS_MOTION_FOR_CALIBRATED_FILTERS(extern, SAS_MOTION_INSTANTIATE_CALIBRATED)
 
 /// The names that withFilter() accepts. It also accepts robust_kf_LOSS, e.g. robust_kf_cauchy.
 constexpr std::array<const char*, 7> kFilterNames{"kf",   "gated_kf",   "robust_kf", "student_t_kf",

@@ -14,6 +14,8 @@ struct GatedKalmanOptions {
 };
 /// Reads all keys of a section. Throws ConfigError.
 void readOptions(YamlSection yaml, GatedKalmanOptions& options);
+/// Returns the options. Throws std::invalid_argument where one is out of its range.
+GatedKalmanOptions checked(const GatedKalmanOptions& options);
 
 /// A Kalman filter that rejects measurements whose NIS fails a chi-squared gate. Alone it rejects all measurements
 /// after a jump of the process; inside a ReacquiringFilter it accepts them again.
@@ -25,7 +27,7 @@ class GatedKalmanFilter {
   static constexpr Guard kGuard = Guard::Reacquiring;
 
   /// Throws std::invalid_argument where an option is out of its range.
-  explicit GatedKalmanFilter(const Options& options);
+  explicit GatedKalmanFilter(const Options& options) : gate_(checked(options).probability) {}
 
   Belief predict(const Belief& belief, const Transition<N>& transition) const {
     return predictGaussian(belief, transition);
@@ -40,3 +42,5 @@ class GatedKalmanFilter {
 };
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/gated_kalman_filter.hpp"

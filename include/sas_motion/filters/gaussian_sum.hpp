@@ -64,3 +64,5 @@ const Gaussian<N>& gaussian(const GaussianSum<N>& belief) {
 }
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/gaussian_sum.hpp"

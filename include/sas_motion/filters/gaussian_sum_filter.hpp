@@ -41,6 +41,9 @@ struct GaussianSumOptions {
                        ///< of the logarithms of variances [-]
 };
 
+/// Returns the options with probabilities that add up to 1. Throws std::invalid_argument where one is out of its range.
+GaussianSumOptions checked(GaussianSumOptions options);
+
 template <int N>
 struct GaussianSumRow;
 
@@ -57,7 +60,7 @@ class GaussianSumFilter {
   using Belief = GaussianSum<N>;
 
   /// Throws std::invalid_argument where an option is out of its range.
-  explicit GaussianSumFilter(const GaussianSumOptions& options);
+  explicit GaussianSumFilter(const GaussianSumOptions& options) : options_(checked(options)) {}
 
   Belief predict(const Belief& belief, const Transition<N>& transition) const;
 
@@ -74,3 +77,5 @@ class GaussianSumFilter {
 };
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/gaussian_sum_filter.hpp"

@@ -30,3 +30,5 @@ class KalmanFilter {
 };
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/kalman_filter.hpp"

@@ -16,6 +16,9 @@ struct MixtureKalmanOptions {
 };
 /// Reads all keys of a section. Throws ConfigError.
 void readOptions(YamlSection yaml, MixtureKalmanOptions& options);
+/// Returns the options. Throws std::invalid_argument where a scale is not positive, a probability negative, or all
+/// probabilities are zero.
+MixtureKalmanOptions checked(const MixtureKalmanOptions& options);
 
 /// A Kalman filter with Gaussian scale-mixture measurement noise, sum p_j N(0, s_j R) in every row.
 ///
@@ -31,8 +34,8 @@ class MixtureKalmanFilter {
   static constexpr Guard kGuard = Guard::Reacquiring;
   static constexpr int kScales = 4;
 
-  /// Throws std::invalid_argument where a scale is not positive, a probability negative, or all probabilities are zero.
-  explicit MixtureKalmanFilter(const Options& options);
+  /// Throws what checked() throws.
+  explicit MixtureKalmanFilter(const Options& options) : options_(checked(options)) {}
 
   Belief predict(const Belief& belief, const Transition<N>& transition) const {
     return predictGaussian(belief, transition);
@@ -55,3 +58,5 @@ class MixtureKalmanFilter {
 };
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/mixture_kalman_filter.hpp"

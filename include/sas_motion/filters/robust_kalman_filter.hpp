@@ -20,6 +20,9 @@ struct RobustKalmanOptions {
 /// loss with c = bandwidth sqrt(2).
 RobustKalmanOptions correntropyOptions(double bandwidth);
 
+/// Returns the options. Throws std::invalid_argument where max_iterations < 1 or tolerance is not positive.
+RobustKalmanOptions checked(const RobustKalmanOptions& options);
+
 /// Each reads all keys of a section. Both throw ConfigError.
 void readOptions(YamlSection yaml, RobustKalmanOptions& options);
 void readCorrentropyOptions(YamlSection yaml, RobustKalmanOptions& options);
@@ -37,8 +40,8 @@ class RobustKalmanFilter {
   using Options = RobustKalmanOptions;
   static constexpr Guard kGuard = Guard::CalibratedAndReacquiring;
 
-  /// Throws std::invalid_argument where max_iterations < 1 or tolerance is not positive.
-  explicit RobustKalmanFilter(const Options& options);
+  /// Throws what checked() throws.
+  explicit RobustKalmanFilter(const Options& options) : options_(checked(options)) {}
 
   Belief predict(const Belief& belief, const Transition<N>& transition) const {
     return predictGaussian(belief, transition);
@@ -64,3 +67,5 @@ class RobustKalmanFilter {
 };
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/robust_kalman_filter.hpp"

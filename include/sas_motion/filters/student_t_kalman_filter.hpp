@@ -17,6 +17,8 @@ struct StudentTKalmanOptions {
 };
 /// Reads all keys of a section. Throws ConfigError.
 void readOptions(YamlSection yaml, StudentTKalmanOptions& options);
+/// Returns the options. Throws std::invalid_argument where one is out of its range.
+StudentTKalmanOptions checked(const StudentTKalmanOptions& options);
 
 /// A Kalman filter with Student-t measurement noise in every row, by variational Bayes [Agamennoni2012; Piche2012].
 ///
@@ -31,7 +33,7 @@ class StudentTKalmanFilter {
   static constexpr Guard kGuard = Guard::CalibratedAndReacquiring;
 
   /// Throws std::invalid_argument where an option is out of its range.
-  explicit StudentTKalmanFilter(const Options& options);
+  explicit StudentTKalmanFilter(const Options& options) : options_(checked(options)) {}
 
   Belief predict(const Belief& belief, const Transition<N>& transition) const {
     return predictGaussian(belief, transition);
@@ -49,3 +51,5 @@ class StudentTKalmanFilter {
 };
 
 }  // namespace sas_motion
+
+#include "sas_motion/filters/impl/student_t_kalman_filter.hpp"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Random123/philox.h>
-
+#include <array>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_01.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -17,8 +17,24 @@ struct DrawPlace {
   std::uint32_t stream = 0, step = 0, item = 0;
 };
 
-/// Random numbers as a function of seed and place. The generator is a counter without any other state. [Salmon2011,
-/// Philox4x32-10]
+using PhiloxCounter = std::array<std::uint32_t, 4>;
+using PhiloxKey = std::array<std::uint32_t, 2>;
+
+/// Encrypts a counter by the ten rounds of Philox4x32-10. [Salmon2011]
+inline PhiloxCounter philox(PhiloxCounter counter, PhiloxKey key) {
+  constexpr int kRounds = 10;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::uint64_t even = std::uint64_t{0xD2511F53} * counter[0], odd = std::uint64_t{0xCD9E8D57} * counter[2];
+    const auto high = [](std::uint64_t product) { return static_cast<std::uint32_t>(product >> 32); };
+    const auto low = [](std::uint64_t product) { return static_cast<std::uint32_t>(product); };
+    counter = {high(odd) ^ counter[1] ^ key[0], low(odd), high(even) ^ counter[3] ^ key[1], low(even)};
+    key[0] += 0x9E3779B9;  // the golden ratio
+    key[1] += 0xBB67AE85;  // sqrt(3) - 1
+  }
+  return counter;
+}
+
+/// Random numbers as a function of seed and place. The generator is a counter without any other state. [Salmon2011]
 class CounterRandom {
  public:
   using result_type = std::uint64_t;
@@ -35,16 +51,18 @@ class CounterRandom {
   result_type operator()() {
     second_ = !second_;
     if (!second_) return half(2);
-    block_ = philox4x32(counter_, key_);
-    ++counter_.v[0];
+    block_ = philox(counter_, key_);
+    ++counter_[0];
     return half(0);
   }
 
  private:
-  result_type half(int first) const { return block_.v[first] | static_cast<result_type>(block_.v[first + 1]) << 32; }
+  result_type half(std::size_t first) const {
+    return block_[first] | static_cast<result_type>(block_[first + 1]) << 32;
+  }
 
-  philox4x32_ctr_t counter_, block_{};
-  philox4x32_key_t key_;
+  PhiloxCounter counter_, block_{};
+  PhiloxKey key_;
   bool second_ = false;  // the first half of the block has been returned
 };
 

@@ -7,9 +7,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filters/particles/blocks.cpp"
-#include <hwy/foreach_target.h>  // comes before highway.h
-//
-#include <hwy/highway.h>
+#include "parallel/vectors.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sas_motion::blocks {
@@ -234,8 +232,6 @@ HWY_EXPORT(addSquaresHere);
 HWY_EXPORT(conditionHere);
 HWY_EXPORT(addSecondMomentsHere);
 HWY_EXPORT(targetHere);
-
-bool available() { return true; }
 
 const char* target() { return HWY_DYNAMIC_DISPATCH(targetHere)(); }
 

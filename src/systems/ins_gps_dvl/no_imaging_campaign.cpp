@@ -5,9 +5,7 @@
 namespace sas_motion::ins {
 
 std::unique_ptr<Campaign> readImagingCampaign(YamlSection& yaml, const std::string&, const EstimatorFactory&) {
-  yaml.fail(
-      "system",
-      "is imaging, which this build has not; install Highway and KissFFT (libhwy-dev, libkissfft-dev) and build again");
+  yaml.fail("system", "is imaging, which this build has not; install KissFFT (libkissfft-dev) and build again");
 }
 
 }  // namespace sas_motion::ins

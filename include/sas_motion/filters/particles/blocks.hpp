@@ -7,14 +7,13 @@
 ///
 /// An element of a vector or matrix is kLanes adjacent numbers, one for each particle. Matrices are stored by rows. A
 /// lower triangular root is stored without its upper triangle: element (i, j) has the index i (i + 1) / 2 + j. The best
-/// instructions of the machine are chosen at run time; results of other machines differ in rounding alone.
+/// instructions of the machine are chosen at run time (a build without Highway has one lane at a time); results of
+/// other machines differ in rounding alone.
 namespace sas_motion::blocks {
 
 constexpr int kLanes = 8;
 constexpr int kMostRows = 8;  ///< of a measurement
 
-/// Whether there are vector instructions. In a library built without Highway nothing below may be called.
-bool available();
 /// Returns the name of the instruction set in use.
 const char* target();
 

@@ -12,8 +12,8 @@
 namespace sas_motion {
 
 /// OneByOne<SimplexFilter<N>> by vector instructions, with one lane for each particle; f and h are called for each
-/// particle and point. The results are the same to rounding. OneByOne itself runs where there are no such instructions,
-/// for a block of one, and for a particle whose root cannot be downdated.
+/// particle and point. The results are the same to rounding. OneByOne itself runs for a block of one, and for a
+/// particle whose root cannot be downdated.
 ///
 /// A step allocates nothing.
 template <int N>
@@ -27,7 +27,7 @@ class SimplexBlocks {
         shared_(-points.offsets.col(1)),
         root_weights_(points.covariance_weights.cwiseSqrt()),
         each_(SimplexFilter<N>(points)),
-        vectorised_(vectorised && blocks::available()) {}
+        vectorised_(vectorised) {}
 
   const SimplexFilter<N>& one() const { return each_.one(); }
 

@@ -22,7 +22,7 @@ struct Config {
   double longest_step = 1;         ///< of one prediction of the filter [s]
   FilterOptions filters;           ///< of the fusion by small angles
   ins::FixedLag fixed_lag;         ///< of its factor graph
-  bool vectorised = true;          ///< square-root filters by vector instructions, where there are any
+  bool vectorised = true;          ///< square-root filters by vector instructions
 };
 
 /// The same where an alignment found the start and the lever arms.

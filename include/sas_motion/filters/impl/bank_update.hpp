@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "filters/bank_moments.hpp"
-#include "filters/bank_reading.hpp"
 #include "sas_motion/filters/bank_kalman_filter.hpp"
+#include "sas_motion/filters/impl/bank_moments.hpp"
+#include "sas_motion/filters/impl/bank_reading.hpp"
 
 namespace sas_motion {
 
