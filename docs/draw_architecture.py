@@ -28,7 +28,7 @@ CORE, GTSAM, ROS = ('#dcebf7', '#2f6f9f'), ('#dff0df', '#3b8a4a'), ('#fbe6d2', '
 STARTS = [('a message, live', 'ros/server'), ('a message of a bag', 'bag/reprocess')]  # the way of a datum: what it is, and where
 WAY = [
     ('a reading', 'ros/system_run, by systems/NAME/ros:\nwhat the messages of each source become'),
-    ('a reading in its place', 'session, by systems/NAME/session:\ntime order, late data, clock faults'),
+    ('a reading in its place', 'session: ReadingQueue, Timeline, Present:\ntime order, late data, clock faults'),
     ('an estimate', 'filters, systems/NAME and its graph:\npredict and update, or a factor graph'),
     ('a solution and an audit', 'estimate: what every estimator says,\nwith the innovation z − h(x)'),
     ('messages', 'ros/solution_messages: the one place\nthat writes and reads answers')]

@@ -208,6 +208,28 @@ TEST(FixedLag, StartsAgainFromAStateThatIsSet) {
   EXPECT_GT(after, 20u);
 }
 
+TEST(FixedLag, ThePresentIsAtTheNewestMeasurementAndAStateCanBeAskedFor) {
+  const auto scenario = testing::survey(25);
+  const auto run = testing::simulate(scenario, 12);
+  FixedLag smoother(configWithLag(scenario, 5));
+  Output output;
+  std::size_t compared = 0;
+  for (const auto& z : run.measurements) {
+    smoother.timeline->process(z, output);
+    if (secondsBetween(Simulator::kStart, z.stamp) < 15) continue;
+    const auto& now = smoother.timeline->current();
+    ASSERT_TRUE(now);
+    ASSERT_EQ(now->stamp, z.stamp);
+    ASSERT_LT(testing::positionError(*now, run), 4);
+    const auto asked = smoother.timeline->at(z.stamp), earlier = smoother.timeline->at(z.stamp - stampFromSeconds(1));
+    ASSERT_TRUE(asked && earlier);
+    ASSERT_EQ(asked->belief.mean, now->belief.mean);
+    ASSERT_LT(testing::positionError(*earlier, run), 4);
+    ++compared;
+  }
+  EXPECT_GT(compared, 200u);
+}
+
 TEST(FixedLag, AnotherLossCountsFromTheNextMeasurementOn) {
   const auto scenario = testing::survey(40);
   auto measurements = testing::simulate(scenario, 11).measurements;
