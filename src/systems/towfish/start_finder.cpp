@@ -11,7 +11,7 @@ std::optional<Gaussian<kStates>> StartFinder::find(Output& output) {
     std::vector<Measurement> window;
     for (const auto& z : gathered_)
       if (z.stamp <= end) window.push_back(z);
-    if (const auto belief = startingBelief(first, window, options_, current_sigma_)) return belief;
+    if (auto belief = startingBelief(first, window, options_, current_sigma_)) return belief;
     refuseFirst(output);
   }
   return std::nullopt;

@@ -114,7 +114,7 @@ class TowfishRun final : public SystemRun {
   Session& session() override { return session_; }
   std::string waitsFor() const override {
     for (const Sensor needed : {Sensor::Position, Sensor::Heading})
-      if (const std::string lack = lackOfSensor(needed); !lack.empty()) return lack;
+      if (std::string lack = lackOfSensor(needed); !lack.empty()) return lack;
     return "";
   }
   std::vector<std::string> warnings() const override {
@@ -131,14 +131,14 @@ class TowfishRun final : public SystemRun {
       case Sensor::Position:
         return listenAt<NavSatFix>(source, [this, source](const NavSatFix& fix, const Transform& T) {
           if (!frame_.map && hasPosition(fix)) setDatum(geodeticOf(fix));
-          return frame_.map && pass(fix, T, source, [&](const auto& reader, Measurement& z) {
+          return frame_.map && pass(fix, source, [&](const auto& reader, Measurement& z) {
                    return readPosition(fix, *frame_.map, T, reader.options, z);
                  });
         });
       case Sensor::Heading:
       case Sensor::TurnRate:
         return listenAt<Imu>(source, [this, source](const Imu& imu, const Transform& T) {
-          return pass(imu, T, source, [&](const auto& reader, Measurement& z) {
+          return pass(imu, source, [&](const auto& reader, Measurement& z) {
             return reader.sensor == Sensor::Heading ? readHeading(imu, T, reader.options, z)
                                                     : readTurnRate(imu, T, reader.options, z);
           });
@@ -146,7 +146,7 @@ class TowfishRun final : public SystemRun {
       case Sensor::Speed:
       case Sensor::Velocity:
         return listenAt<Twist>(source, [this, source](const Twist& twist, const Transform& T) {
-          return pass(twist, T, source, [&](const auto& reader, Measurement& z) {
+          return pass(twist, source, [&](const auto& reader, Measurement& z) {
             return reader.sensor == Sensor::Speed ? readSpeed(twist, T, reader.options, z)
                                                   : readVelocity(twist, T, reader.options, z);
           });
@@ -156,7 +156,7 @@ class TowfishRun final : public SystemRun {
 
   /// Returns whether there was any measurement.
   template <class Message, class Read>
-  bool pass(const Message& message, const Transform&, std::size_t source, const Read& read) {
+  bool pass(const Message& message, std::size_t source, const Read& read) {
     bool any = false;
     for (const auto& reader : readers_[source]) {
       if (!reader.options.enabled) continue;
