@@ -17,8 +17,10 @@ struct Running {
 
   template <class Entry>
   void take(const Entry& entry, typename Estimator::Output& output) {
-    if (entry.config != config) estimator->configure(*entry.config);
-    config = entry.config;
+    if (entry.config != config) {
+      estimator->configure(*entry.config);
+      config = entry.config;
+    }
     estimator->process(entry.reading, output);
   }
   Running clone() const { return {estimator->clone(), config}; }

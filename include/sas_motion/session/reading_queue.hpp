@@ -63,9 +63,8 @@ class ReadingQueue {
     return Answer::Taken;
   }
 
-  /// Begins anew with the readings that the new clock was recognised by.
+  /// Begins anew with the readings that the new clock was recognised by; nothing is open.
   void startAnew(const std::shared_ptr<const Config>& config) {
-    open_.clear();
     settled_.reset();
     newest_ = newest_held_;
     for (auto& reading : std::exchange(held_, {})) put({std::move(reading), config});

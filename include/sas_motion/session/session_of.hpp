@@ -81,7 +81,7 @@ class SessionOf : public Session {
  protected:
   /// A state where the frame is known; else nothing.
   virtual std::optional<Solution> solution(const State& state, const OutputFrame& frame) const = 0;
-  /// The same of a settled one, which a system may leave out.
+  /// A settled state as a solution; nothing where the system answers at a lower rate than its estimators.
   virtual std::optional<Solution> settledSolution(std::size_t, const State& state, const OutputFrame& frame) {
     return solution(state, frame);
   }

@@ -43,6 +43,7 @@ void AlignedEstimator::take(const Event& event, Output& output) {
     begin(*start, output);
   } else if (const auto* aiding = std::get_if<Aiding>(&event)) {
     estimator_->process(*aiding, output);
+    ++measurements_;
   } else {
     last_ = std::get<ImuReading>(event);
     count(*last_, estimator_->process(*last_, output));

@@ -93,6 +93,12 @@ void NavigationSession::reset() {
   settled_rates_.assign(names().size(), OutputRate(output_rate_));
 }
 
+LaneReport NavigationSession::report(std::size_t lane) const {
+  LaneReport report = SessionOf::report(lane);
+  report.measurements = estimator(lane).measurements();
+  return report;
+}
+
 std::optional<Solution> NavigationSession::solution(const NavigationSolution& solution,
                                                     const OutputFrame& frame) const {
   if (!frame.map) return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "sas_motion/config/yaml_vector.hpp"
@@ -34,19 +35,18 @@ void readSensor(YamlSection yaml, double step, SimulatedSource& options) {
   yaml.finish();
 }
 
-double defaultSigma(Sensor sensor) {
-  return sensor == Sensor::Heading ? 0.5 * kRadPerDeg : sensor == Sensor::TurnRate ? 0.1 * kRadPerDeg : 1;
-}
+/// The default source of a sensor, and the last part of the default topic of others.
+struct Defaults {
+  const char *topic, *frame, *leaf;
+  double sigma;
+};
+constexpr std::array<Defaults, kSensors> kDefaults{{{"gnss/fix", "gnss_link", "fix", 1},
+                                                    {"imu/data", "imu_link", "imu", 0.5 * kRadPerDeg},
+                                                    {"dvl/twist", "dvl_link", "twist", 1},
+                                                    {"imu/data", "imu_link", "imu", 0.1 * kRadPerDeg},
+                                                    {"dvl/velocity", "dvl_link", "velocity", 1}}};  // by Sensor
 
-/// The last part of the default topic of a sensor's messages.
-const char* topicOf(Sensor sensor) {
-  switch (sensor) {
-    case Sensor::Position: return "fix";
-    case Sensor::Speed: return "twist";
-    case Sensor::Velocity: return "velocity";
-    default: return "imu";
-  }
-}
+const Defaults& defaultsOf(Sensor sensor) { return kDefaults[static_cast<std::size_t>(sensor)]; }
 
 /// Further sources, each with a name of its own.
 void readSources(YamlSection& yaml, Scenario& scenario) {
@@ -60,8 +60,9 @@ void readSources(YamlSection& yaml, Scenario& scenario) {
       item.fail("measures",
                 fmt::format("is '{}' but must be position, heading, speed, turn_rate or velocity", measures));
     source.sensor = *sensor;
-    source.sigma = defaultSigma(*sensor);
-    source.topic = fmt::format("{}/{}", source.name, topicOf(*sensor));
+    source.sigma = defaultsOf(*sensor).sigma;
+    source.topic = fmt::format("{}/{}", source.name, defaultsOf(*sensor).leaf);
+    source.frame = source.name + "_link";
     item.text("topic", source.topic);
     for (const auto& other : scenario.sources)
       if (source.name.empty() || source.name == other.name ||
@@ -101,7 +102,12 @@ void readTruth(YamlSection yaml, Scenario& scenario) {
 }  // namespace
 
 Scenario::Scenario() {
-  for (int i = 0; i < kSensors; ++i) sources.emplace_back().sensor = static_cast<Sensor>(i);
+  for (int i = 0; i < kSensors; ++i) {
+    SimulatedSource& source = sources.emplace_back();
+    source.sensor = static_cast<Sensor>(i);
+    source.topic = defaultsOf(source.sensor).topic;
+    source.frame = defaultsOf(source.sensor).frame;
+  }
 }
 
 Scenario Scenario::read(YamlSection yaml) {
@@ -114,7 +120,7 @@ Scenario Scenario::read(YamlSection yaml) {
   readTruth(yaml.section("truth"), scenario);
   auto sensors = yaml.section("sensors");
   for (auto& sensor : scenario.sources) {
-    sensor.sigma = defaultSigma(sensor.sensor);
+    sensor.sigma = defaultsOf(sensor.sensor).sigma;
     readSensor(sensors.section(sensorName(sensor.sensor)), scenario.step, sensor);
   }
   sensors.finish();

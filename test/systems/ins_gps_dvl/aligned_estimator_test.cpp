@@ -208,6 +208,10 @@ TEST(InsSession, DuplicatesChangeNothing) {
   const auto& solutions = session.output.solutions;
   ASSERT_EQ(solutions.size(), once.solutions.size());
   EXPECT_TRUE(solutions.back().state == once.solutions.back().state);
+  const auto fused = std::count_if(session.output.audits.begin(), session.output.audits.end(), [](const Audit& audit) {
+    return audit.verdict != Verdict::Stale && audit.verdict != Verdict::Invalid;
+  });
+  EXPECT_EQ(session.estimator->measurements(), static_cast<std::uint64_t>(fused));
   EXPECT_GT(session.timeline.refused(Timeline<InOrder>::Queue::Refusal::Duplicate), 0u);
 }
 

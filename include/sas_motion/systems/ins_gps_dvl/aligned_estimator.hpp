@@ -57,6 +57,8 @@ class AlignedEstimator final : public InOrder {
   std::string failure() const override { return estimator_ ? estimator_->failure() : ""; }
 
   const Alignment& alignment() const { return alignment_; }
+  /// How many readings of sensors that aid the estimator was given.
+  std::uint64_t measurements() const { return measurements_; }
   const InertialCounts& inertial() const { return inertial_; }
 
  private:
@@ -73,7 +75,7 @@ class AlignedEstimator final : public InOrder {
   std::optional<ImuReading> last_;
   InertialCounts inertial_;
   std::optional<Stamp> last_integrated_;
-  std::uint64_t intervals_ = 0;
+  std::uint64_t intervals_ = 0, measurements_ = 0;
 };
 
 }  // namespace sas_motion::ins

@@ -19,17 +19,20 @@ class NavigationSession final : public SessionOf<InOrder> {
                     double output_rate, bool live);
 
   /// The first lane's.
-  const Alignment& alignment() const { return estimator().alignment(); }
-  const InertialCounts& inertial() const { return estimator().inertial(); }
+  const Alignment& alignment() const { return estimator(0).alignment(); }
+  const InertialCounts& inertial() const { return estimator(0).inertial(); }
   /// How many readings of the IMU and velocities of GNSS were left out for this reason.
   std::uint64_t refused(Timeline<InOrder>::Queue::Refusal why) const { return timeline(0).refused(why); }
 
   void reset() override;
+  LaneReport report(std::size_t lane) const override;
   std::string setState(std::size_t lane, const OutputFrame& frame, const StateRequest& request) override;
   bool positionsAreOfMap() const override { return false; }
 
  private:
-  const AlignedEstimator& estimator() const { return static_cast<const AlignedEstimator&>(timeline(0).settled()); }
+  const AlignedEstimator& estimator(std::size_t lane) const {
+    return static_cast<const AlignedEstimator&>(timeline(lane).settled());
+  }
   std::optional<Solution> solution(const NavigationSolution& solution, const OutputFrame& frame) const override;
   std::optional<Solution> settledSolution(std::size_t lane, const NavigationSolution& solution,
                                           const OutputFrame& frame) override;

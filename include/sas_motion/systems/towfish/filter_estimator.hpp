@@ -20,7 +20,7 @@ class FilterEstimator final : public Estimator {
   using Make = std::function<Filter(const Config&)>;
 
   FilterEstimator(Make make, const Config& config);
-  /// With another motion than the model's.
+  /// Predicts by `motion` instead of the model's own motion.
   FilterEstimator(Make make, const Config& config, Motion motion);
   /// One that goes on from an estimate.
   FilterEstimator(Make make, const Config& config, const Estimate& estimate, const HeldInput& input);

@@ -23,7 +23,7 @@ struct SimulatedSensor {
 struct SimulatedSource : SimulatedSensor {
   Sensor sensor = Sensor::Position;
   std::string name;                              ///< of the source; empty: the sensor's
-  std::string topic;                             ///< in a bag; empty: the sensor's
+  std::string topic, frame;                      ///< of its messages in a bag
   Vector<2> lever_arm_body = Vector<2>::Zero();  ///< of a position's antenna from base_link: forward, starboard [m]
   double time_offset = 0;                        ///< added to its stamps in a bag [s]
 };

@@ -34,8 +34,8 @@ class InsWindow {
   Stamp stamp(std::size_t k) const { return places_[k].stamp; }
   Node node(std::size_t k) const { return values_.at<Node>(places_[k].key); }
   Constants constants() const { return values_.at<Constants>(kConstantsKey); }
-  /// Of the scale [-], the misalignment [rad] and the lever arm [m] of the DVL, each less the configured one; 0
-  /// where they are not estimated.
+  // The estimated errors of the DVL's configured scale [-], misalignment [rad] and lever arm [m]; zero for those that
+  // are not estimated.
   double dvlScale() const { return values_.exists(kDvlScaleKey) ? values_.at<double>(kDvlScaleKey) : 0; }
   Vector<3> dvlMisalignment() const { return vectorAt(kDvlMisalignmentKey); }
   Vector<3> dvlLever() const { return vectorAt(kDvlLeverKey); }

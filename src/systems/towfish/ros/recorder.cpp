@@ -6,7 +6,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -31,23 +30,6 @@ sas_motion::MeasurementLabel label(const Measurement& z, const std::array<bool, 
   return message;
 }
 
-struct Defaults {
-  const char *topic, *frame;
-};
-constexpr std::array<Defaults, kSensors> kDefaults{{{"gnss/fix", "gnss_link"},
-                                                    {"imu/data", "imu_link"},
-                                                    {"dvl/twist", "dvl_link"},
-                                                    {"imu/data", "imu_link"},
-                                                    {"dvl/velocity", "dvl_link"}}};  // by Sensor
-
-std::string topicOf(const SimulatedSource& source) {
-  return source.topic.empty() ? kDefaults[static_cast<std::size_t>(source.sensor)].topic : source.topic;
-}
-
-std::string frameOf(const SimulatedSource& source) {
-  return source.name.empty() ? kDefaults[static_cast<std::size_t>(source.sensor)].frame : source.name + "_link";
-}
-
 }  // namespace
 
 void TowfishRecorder::record(const std::function<void(double)>& progress) {
@@ -65,10 +47,10 @@ void TowfishRecorder::transforms() {
   tf2_msgs::TFMessage message;
   std::set<std::string> frames;
   for (const auto& source : scenario_.sources) {
-    if (!frames.insert(frameOf(source)).second) continue;
+    if (!frames.insert(source.frame).second) continue;
     Transform T_base_sensor = Transform::Identity();
     T_base_sensor.translation() << source.lever_arm_body(0), 0 - source.lever_arm_body(1), 0;
-    message.transforms.push_back(stamped(settings_.base_frame, frameOf(source), time, T_base_sensor));
+    message.transforms.push_back(stamped(settings_.base_frame, source.frame, time, T_base_sensor));
   }
   bag_.writeLatched("/tf_static", time, message);
 }
@@ -85,11 +67,10 @@ void TowfishRecorder::measurements(const std::vector<LabelledMeasurement>& measu
   std::map<std::string, sensor_msgs::Imu> imus;  // by topic: a heading and a turn rate of one IMU share a message
   for (const auto& [z, outlier, variance] : measurements) {
     const SimulatedSource& source = scenario_.sources[static_cast<std::size_t>(z.source)];
-    const std::string topic = topicOf(source);
     const ros::Time time = timeOf(z.stamp);
-    if (z.sensor == Sensor::Position) bag_.write(topic, time, fix(z, source));
-    if (z.sensor == Sensor::Speed || z.sensor == Sensor::Velocity) bag_.write(topic, time, twist(z, source));
-    if (z.sensor == Sensor::Heading || z.sensor == Sensor::TurnRate) fill(imus[topic], z, source);
+    if (z.sensor == Sensor::Position) bag_.write(source.topic, time, fix(z, source));
+    if (z.sensor == Sensor::Speed || z.sensor == Sensor::Velocity) bag_.write(source.topic, time, twist(z, source));
+    if (z.sensor == Sensor::Heading || z.sensor == Sensor::TurnRate) fill(imus[source.topic], z, source);
     if (z.sensor != Sensor::TurnRate) bag_.write("truth/label", time, label(z, outlier));
   }
   for (auto& [topic, imu] : imus) {
@@ -101,7 +82,7 @@ void TowfishRecorder::measurements(const std::vector<LabelledMeasurement>& measu
 std_msgs::Header TowfishRecorder::header(const Measurement& z, const SimulatedSource& source) const {
   std_msgs::Header header;
   header.stamp = timeOf(z.stamp + stampFromSeconds(source.time_offset));
-  header.frame_id = frameOf(source);
+  header.frame_id = source.frame;
   return header;
 }
 
@@ -109,14 +90,14 @@ sensor_msgs::NavSatFix TowfishRecorder::fix(const Measurement& z, const Simulate
   sensor_msgs::NavSatFix message =
       fixAt(frame_.geodetic({z.value(1), z.value(0), 0}), {}, "", {z.variance(1), z.variance(0), 4 * z.variance(0)});
   message.header = header(z, source);
-  message.header.seq = seq_[topicOf(source)]++;
+  message.header.seq = seq_[source.topic]++;
   return message;
 }
 
 geometry_msgs::TwistWithCovarianceStamped TowfishRecorder::twist(const Measurement& z, const SimulatedSource& source) {
   geometry_msgs::TwistWithCovarianceStamped message;
   message.header = header(z, source);
-  message.header.seq = seq_[topicOf(source)]++;
+  message.header.seq = seq_[source.topic]++;
   const std::size_t rows = static_cast<std::size_t>(rowsOf(z.sensor));
   message.twist.twist.linear.x = z.value(0);
   message.twist.twist.linear.y = rows > 1 ? -z.value(1) : 0;

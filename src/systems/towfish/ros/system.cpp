@@ -131,32 +131,22 @@ class TowfishRun final : public SystemRun {
       case Sensor::Position:
         return listenAt<NavSatFix>(source, [this, source](const NavSatFix& fix, const Transform& T) {
           if (!frame_.map && hasPosition(fix)) setDatum(geodeticOf(fix));
-          return frame_.map && pass(fix, source, [&](const auto& reader, Measurement& z) {
-                   return readPosition(fix, *frame_.map, T, reader.options, z);
-                 });
+          return frame_.map && pass(fix, T, source);
         });
       case Sensor::Heading:
       case Sensor::TurnRate:
-        return listenAt<Imu>(source, [this, source](const Imu& imu, const Transform& T) {
-          return pass(imu, source, [&](const auto& reader, Measurement& z) {
-            return reader.sensor == Sensor::Heading ? readHeading(imu, T, reader.options, z)
-                                                    : readTurnRate(imu, T, reader.options, z);
-          });
-        });
+        return listenAt<Imu>(source,
+                             [this, source](const Imu& imu, const Transform& T) { return pass(imu, T, source); });
       case Sensor::Speed:
       case Sensor::Velocity:
-        return listenAt<Twist>(source, [this, source](const Twist& twist, const Transform& T) {
-          return pass(twist, source, [&](const auto& reader, Measurement& z) {
-            return reader.sensor == Sensor::Speed ? readSpeed(twist, T, reader.options, z)
-                                                  : readVelocity(twist, T, reader.options, z);
-          });
-        });
+        return listenAt<Twist>(
+            source, [this, source](const Twist& twist, const Transform& T) { return pass(twist, T, source); });
     }
   }
 
   /// Returns whether there was any measurement.
-  template <class Message, class Read>
-  bool pass(const Message& message, std::size_t source, const Read& read) {
+  template <class Message>
+  bool pass(const Message& message, const Transform& T_base_sensor, std::size_t source) {
     bool any = false;
     for (const auto& reader : readers_[source]) {
       if (!reader.options.enabled) continue;
@@ -165,11 +155,23 @@ class TowfishRun final : public SystemRun {
       z.sensor = reader.sensor;
       z.source = reader.number;
       z.source_name = reader.name;
-      if (!read(reader, z)) continue;
+      if (!read(message, T_base_sensor, reader, z)) continue;
       session_.process(z);
       any = true;
     }
     return any;
+  }
+
+  bool read(const NavSatFix& fix, const Transform& T, const Reader& reader, Measurement& z) const {
+    return readPosition(fix, *frame_.map, T, reader.options, z);
+  }
+  bool read(const Imu& imu, const Transform& T, const Reader& reader, Measurement& z) const {
+    const auto& take = reader.sensor == Sensor::Heading ? readHeading : readTurnRate;
+    return take(imu, T, reader.options, z);
+  }
+  bool read(const Twist& twist, const Transform& T, const Reader& reader, Measurement& z) const {
+    const auto& take = reader.sensor == Sensor::Speed ? readSpeed : readVelocity;
+    return take(twist, T, reader.options, z);
   }
 
   /// Why no source of a sensor has a reading; empty where one has.
